@@ -1,0 +1,22 @@
+//! Adaptive radiosity: a scene of diffuse surfaces in, a crack-free mesh that carries its light out.
+//!
+//! scene → surface → mesh → visibility → form_factor → refine → solver → reconstruct → export, render
+//!
+//! Data moves left to right. A module may use those to its left, never those to its right.
+//!
+//! Units: metres, linear RGB, W/m² for radiosity, W/(m² sr) for radiance. Y is up.
+
+#![warn(clippy::print_stdout, clippy::print_stderr, clippy::unwrap_used)]
+
+pub mod colour;
+pub mod error;
+pub mod settings;
+
+pub mod scene;
+
+pub mod reconstruct;
+
+pub use error::{Error, Result};
+pub use reconstruct::TriMesh;
+pub use scene::{Scene, load};
+pub use settings::Settings;

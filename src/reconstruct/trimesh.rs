@@ -1,0 +1,41 @@
+//! The mesh that leaves the house: triangles with a radiosity at every vertex.
+
+use std::ops::Range;
+
+use glam::{DVec3, Vec2, Vec3};
+
+use crate::colour::Rgb;
+use crate::scene::Texture;
+
+/// A conforming triangle mesh; all per-vertex lists are as long as `positions`.
+#[derive(Clone, Debug, Default)]
+pub struct TriMesh {
+    /// Vertex positions, m. Vertices of different surfaces at one place have bitwise equal positions.
+    pub positions: Vec<DVec3>,
+    /// Unit normals: of the surface, or of the curved surface it approximates.
+    pub normals: Vec<Vec3>,
+    /// Texture coordinates, zero where a part has no texture.
+    pub uvs: Vec<Vec2>,
+    /// Radiosity B, W/m² per channel, interpolated linearly over a triangle.
+    pub radiosity: Vec<Rgb>,
+    /// Mean colour of the texture under the vertex's element, 1 where there is none:
+    /// `radiosity / texture_mean * texture` is the textured radiosity.
+    pub texture_mean: Vec<Rgb>,
+    /// Corners, counter-clockwise seen from the front.
+    pub triangles: Vec<[u32; 3]>,
+    /// Consecutive runs of triangles that share a material; together they are all triangles.
+    pub parts: Vec<Part>,
+    /// Pictures that parts refer to.
+    pub textures: Vec<Texture>,
+}
+
+/// A run of triangles of one material.
+#[derive(Clone, Debug, Default)]
+pub struct Part {
+    /// The material's name.
+    pub name: String,
+    /// Range of indices into [`TriMesh::triangles`].
+    pub triangles: Range<usize>,
+    /// Index into [`TriMesh::textures`].
+    pub texture: Option<u32>,
+}

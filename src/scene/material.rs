@@ -1,0 +1,52 @@
+//! Diffuse reflectance, emission and the pictures they are taken from.
+
+use crate::colour::Rgb;
+
+/// A diffuse material.
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// The file's name for it.
+    pub name: String,
+    /// Diffuse reflectance ρ per channel, 0..=0.99; multiplied by the texture where there is one.
+    pub reflectance: Rgb,
+    /// Emitted radiance L, W/(m² sr) per channel; multiplied by the emission texture.
+    pub emission: Rgb,
+    /// True if both sides reflect and emit; otherwise the back is black.
+    pub double_sided: bool,
+    /// Index into [`super::Scene::textures`] of the picture of the reflectance.
+    pub texture: Option<u32>,
+    /// Index into [`super::Scene::textures`] of the picture of the emission.
+    pub emission_texture: Option<u32>,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            name: "default".to_owned(),
+            reflectance: Rgb::splat(0.5),
+            emission: Rgb::ZERO,
+            double_sided: false,
+            texture: None,
+            emission_texture: None,
+        }
+    }
+}
+
+/// A picture with repeating borders unless clamped, decoded and as it came.
+#[derive(Clone, Debug, Default)]
+pub struct Texture {
+    /// File name or the glTF image's name.
+    pub name: String,
+    /// Texels a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Linear RGB, row by row from the top, `width * height` texels.
+    pub texels: Vec<[f32; 3]>,
+    /// The encoded picture as read, PNG or JPEG, written out again on export.
+    pub encoded: Vec<u8>,
+    /// `image/png` or `image/jpeg`.
+    pub mime_type: String,
+    /// Whether coordinates outside 0..=1 repeat the picture (else they take its border), along u and v.
+    pub repeat: [bool; 2],
+}
