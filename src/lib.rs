@@ -13,6 +13,9 @@ pub mod error;
 pub mod settings;
 
 pub mod scene;
+pub mod surface;
+
+pub mod mesh;
 
 pub mod reconstruct;
 

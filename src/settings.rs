@@ -11,14 +11,14 @@ pub struct Settings {
     /// Largest error of interpolation across an element, as a share of the radiosity around it
     /// (0.001..=1; default 0.03). Smaller means more elements.
     pub tolerance: f64,
-    /// Shortest side an element may be given by refinement, m; `None` takes a share of the scene's
-    /// size that the preset fixes. Shadows finer than this blur.
-    pub min_element: Option<f64>,
+    /// Shortest side that refinement may give an element (default 1/800 of the scene).
+    /// Shadows finer than this blur.
+    pub min_element: Length,
     /// Deepest level of the element tree under a patch (0..=16; default 7).
     pub max_level: u32,
-    /// Longest side of a patch, m; `None` takes a share of the scene's size.
+    /// Longest side of a patch (default 1/14 of the scene).
     /// Interreflection is carried between patches: smaller is more accurate and slower.
-    pub patch_size: Option<f64>,
+    pub patch_size: Length,
     /// Some(size): no refinement where the light asks for it; every element is split until its
     /// longest side is at most `size`, m.
     pub uniform: Option<f64>,
@@ -33,16 +33,21 @@ pub struct Settings {
 impl Settings {
     /// Seconds, for a first look.
     pub fn draft() -> Self {
-        Self { tolerance: 0.08, max_level: 4, hemicube_resolution: 64, ..Self::medium() }
+        Self {
+            tolerance: 0.08,
+            min_element: Length::OfScene(1.0 / 300.0),
+            max_level: 5,
+            ..Self::medium()
+        }
     }
 
     /// The default: right to about one per cent of a room's mean radiosity.
     pub fn medium() -> Self {
         Self {
             tolerance: 0.03,
-            min_element: None,
+            min_element: Length::OfScene(1.0 / 800.0),
             max_level: 7,
-            patch_size: None,
+            patch_size: Length::OfScene(1.0 / 14.0),
             uniform: None,
             stop: 0.001,
             max_shots: None,
@@ -52,7 +57,38 @@ impl Settings {
 
     /// For final pictures.
     pub fn high() -> Self {
-        Self { tolerance: 0.01, max_level: 9, hemicube_resolution: 256, ..Self::medium() }
+        Self {
+            tolerance: 0.01,
+            min_element: Length::OfScene(1.0 / 2000.0),
+            max_level: 9,
+            ..Self::medium()
+        }
+    }
+}
+
+impl Settings {
+    /// Longest side of a patch in a scene with a bounding box of this diagonal, m.
+    pub fn patch_length(&self, extent: f64) -> f64 {
+        self.patch_size.metres(extent).max(self.uniform.unwrap_or(0.0))
+    }
+}
+
+/// A length that may depend on the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Length {
+    /// This many metres.
+    Metres(f64),
+    /// This share of the diagonal of the scene's bounding box.
+    OfScene(f64),
+}
+
+impl Length {
+    /// The length in a scene with a bounding box of this diagonal, m.
+    pub fn metres(self, extent: f64) -> f64 {
+        match self {
+            Self::Metres(metres) => metres,
+            Self::OfScene(share) => share * extent,
+        }
     }
 }
 

@@ -1,5 +1,7 @@
 //! Diffuse reflectance, emission and the pictures they are taken from.
 
+use glam::{DVec2, Vec3};
+
 use crate::colour::Rgb;
 
 /// A diffuse material.
@@ -49,4 +51,18 @@ pub struct Texture {
     pub mime_type: String,
     /// Whether coordinates outside 0..=1 repeat the picture (else they take its border), along u and v.
     pub repeat: [bool; 2],
+}
+
+impl Texture {
+    /// The texel at texture coordinates `uv`, linear RGB; black for a picture without texels.
+    pub fn sample(&self, uv: DVec2) -> Rgb {
+        let index = |coordinate: f64, count: u32, repeat: bool| {
+            let wrapped = if repeat { coordinate - coordinate.floor() } else { coordinate };
+            ((wrapped * f64::from(count)) as usize).min(count.saturating_sub(1) as usize)
+        };
+        let column = index(uv.x, self.width, self.repeat[0]);
+        let row = index(uv.y, self.height, self.repeat[1]);
+        let texel = self.texels.get(row * self.width as usize + column);
+        texel.map_or(Rgb::ZERO, |&texel| Vec3::from(texel).as_dvec3())
+    }
 }

@@ -80,3 +80,12 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene> {
     let _ = (path, options);
     Ok(Scene::default())
 }
+
+impl Scene {
+    /// Diagonal of the bounding box, m.
+    pub fn extent(&self) -> f64 {
+        let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let (low, high) = self.positions.iter().fold(empty, |(l, h), &p| (l.min(p), h.max(p)));
+        (high - low).length()
+    }
+}

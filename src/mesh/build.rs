@@ -1,0 +1,156 @@
+//! Patches of a scene's surfaces, and the vertices that their elements share.
+
+use std::collections::HashMap;
+
+use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
+
+use super::{Corners, Element, ElementId, Mesh, Patch, PatchId, Reason, Vertex, VertexId};
+use crate::settings::Settings;
+use crate::surface::cut::{Cuts, convex_pieces};
+use crate::surface::polygon::{self, Convex, Segment};
+use crate::surface::{Plane, Surfaces, Weld, mean_texture};
+
+/// How far inside a border light is evaluated, in tolerances: well beyond what counts as touching it.
+const INSET: f64 = 50.0;
+
+/// Finds the vertex at a place.
+#[derive(Clone, Debug)]
+pub(super) struct VertexIndex {
+    sheets: Vec<Sheet>,
+    /// By surface, place on it, and, where a contact line runs through it, patch.
+    vertices: HashMap<(u32, u32, Option<PatchId>), VertexId>,
+    tolerance: f64,
+}
+
+/// What of a surface its vertices depend on.
+#[derive(Clone, Debug)]
+struct Sheet {
+    plane: Plane,
+    contacts: Vec<Segment>,
+    places: Weld,
+}
+
+impl Mesh {
+    /// Divides surfaces into patches of bounded size, cut along contact lines, with an element each.
+    ///
+    /// With [`Settings::uniform`], elements are divided until none is longer than that.
+    pub fn new(surfaces: &Surfaces, settings: &Settings) -> Self {
+        let mut mesh = Self {
+            patches: Vec::new(),
+            elements: Vec::new(),
+            vertices: Vec::new(),
+            index: VertexIndex::new(surfaces),
+        };
+        for (number, surface) in surfaces.list.iter().enumerate() {
+            let cuts = Cuts {
+                segments: &surface.contacts,
+                size: settings.patch_length(surfaces.extent),
+                tolerance: surfaces.tolerance,
+            };
+            for piece in convex_pieces(&surface.rings, &cuts) {
+                mesh.add_patch(surfaces, number as u32, &piece);
+            }
+        }
+        if let Some(size) = settings.uniform {
+            mesh.divide_uniformly(size);
+        }
+        mesh
+    }
+
+    fn add_patch(&mut self, surfaces: &Surfaces, number: u32, outline: &Convex) {
+        let surface = &surfaces.list[number as usize];
+        let patch = PatchId(self.patches.len() as u32);
+        let root = ElementId(self.elements.len() as u32);
+        let area = polygon::area(outline);
+        let [reflectance_texture, exitance_texture] = mean_texture(surfaces, surface, outline);
+        self.patches.push(Patch {
+            surface: number,
+            root,
+            corners: outline.iter().map(|&p| surface.plane.lift(p)).collect(),
+            normal: surface.plane.normal,
+            area,
+            reflectance: surface.reflectance * reflectance_texture,
+            exitance: surface.exitance * exitance_texture,
+            contacts: touching(&surface.contacts, outline, surfaces.tolerance),
+        });
+        let corners: Corners = outline.iter().map(|&p| self.vertex(patch, p)).collect();
+        let children = SmallVec::new();
+        self.elements.push(Element { patch, corners, children, level: 0, reason: None, area });
+    }
+
+    /// The vertex of a patch at a place on its surface's plane, made if there is none.
+    pub(super) fn vertex(&mut self, patch: PatchId, position: DVec2) -> VertexId {
+        let surface = self[patch].surface;
+        let on_contact = self.on_contact(patch, position);
+        let sheet = &mut self.index.sheets[surface as usize];
+        let place = sheet.places.number(position.extend(0.0));
+        let position = sheet.places.places()[place as usize].truncate();
+        let new = VertexId(self.vertices.len() as u32);
+        let key = (surface, place, on_contact.then_some(patch));
+        let vertex = *self.index.vertices.entry(key).or_insert(new);
+        if vertex == new {
+            let site = self.site(patch, position);
+            let (direct, indirect) = (None, None);
+            self.vertices.push(Vertex { surface, position, site, on_contact, direct, indirect });
+        }
+        vertex
+    }
+
+    /// The vertex of a patch at a place on its surface's plane, if there is one.
+    pub fn find_vertex(&self, patch: PatchId, position: DVec2) -> Option<VertexId> {
+        let surface = self[patch].surface;
+        let place = self.index.sheets[surface as usize].places.find(position.extend(0.0))?;
+        let side = self.on_contact(patch, position).then_some(patch);
+        self.index.vertices.get(&(surface, place, side)).copied()
+    }
+
+    fn on_contact(&self, patch: PatchId, position: DVec2) -> bool {
+        let Patch { surface, contacts, .. } = &self[patch];
+        let segments = &self.index.sheets[*surface as usize].contacts;
+        let tolerance = self.index.tolerance;
+        contacts.iter().any(|&c| polygon::distance(segments[c as usize], position) <= tolerance)
+    }
+
+    /// Where to evaluate light for a place on a patch: a hair nearer to its middle.
+    fn site(&self, patch: PatchId, position: DVec2) -> DVec3 {
+        let Patch { surface, corners, .. } = &self[patch];
+        let place = self.index.sheets[*surface as usize].plane.lift(position);
+        let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
+        place + (middle - place).clamp_length_max(INSET * self.index.tolerance)
+    }
+
+    fn divide_uniformly(&mut self, size: f64) {
+        let mut next = 0;
+        while next < self.elements.len() {
+            let element = ElementId(next as u32);
+            let [width, height] = self.sides(element);
+            if width.max(height) > size * (1.0 + 1e-9) {
+                self.split(element, self.round_split(element), Reason::Uniform);
+            }
+            next += 1;
+        }
+    }
+}
+
+impl VertexIndex {
+    fn new(surfaces: &Surfaces) -> Self {
+        let tolerance = surfaces.tolerance;
+        let sheet = |surface: &crate::surface::Surface| Sheet {
+            plane: surface.plane,
+            contacts: surface.contacts.clone(),
+            places: Weld::new(tolerance),
+        };
+        let sheets = surfaces.list.iter().map(sheet).collect();
+        Self { sheets, vertices: HashMap::new(), tolerance }
+    }
+}
+
+/// Indices of the segments that come near a convex polygon.
+fn touching(segments: &[Segment], outline: &[DVec2], tolerance: f64) -> SmallVec<[u32; 4]> {
+    let borders: Vec<_> = polygon::edges(outline).map(polygon::Line::through).collect();
+    let near = |&(_, [a, b]): &(usize, &Segment)| {
+        borders.iter().all(|line| line.side(*a, 0.0).max(line.side(*b, 0.0)) >= -2.0 * tolerance)
+    };
+    segments.iter().enumerate().filter(near).map(|(k, _)| k as u32).collect()
+}

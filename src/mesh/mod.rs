@@ -1,0 +1,157 @@
+//! Patches, and under each a tree of elements: convex polygons divided in quarters or along a line.
+
+mod build;
+mod ids;
+mod split;
+mod validate;
+
+use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
+
+use crate::colour::Rgb;
+use crate::surface::polygon::{self, Convex};
+
+pub use ids::{ElementId, PatchId, VertexId};
+pub use split::{Middle, Split};
+
+use build::VertexIndex;
+
+/// Corners of an element, counter-clockwise.
+pub type Corners = SmallVec<[VertexId; 4]>;
+
+/// The surfaces of a scene, divided.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    /// The coarse pieces, surface by surface.
+    pub patches: Vec<Patch>,
+    /// The nodes of all trees; parents come before their children.
+    pub elements: Vec<Element>,
+    /// The corners of elements, and the places where light was evaluated to judge them.
+    pub vertices: Vec<Vertex>,
+    index: VertexIndex,
+}
+
+/// A coarse piece of a surface: it shoots.
+#[derive(Clone, Debug)]
+pub struct Patch {
+    /// Index into [`crate::surface::Surfaces::list`].
+    pub surface: u32,
+    /// The element that covers it.
+    pub root: ElementId,
+    /// Its corners in space, m.
+    pub corners: SmallVec<[DVec3; 4]>,
+    /// Unit normal.
+    pub normal: DVec3,
+    /// Area, m².
+    pub area: f64,
+    /// Diffuse reflectance, the mean of the texture included.
+    pub reflectance: Rgb,
+    /// Exitance, W/m², the mean of the texture included.
+    pub exitance: Rgb,
+    /// Contact lines of its surface that touch it, as indices into [`crate::surface::Surface::contacts`].
+    contacts: SmallVec<[u32; 4]>,
+}
+
+/// A convex polygon on a patch, at one level of its tree: it receives.
+#[derive(Clone, Debug)]
+pub struct Element {
+    /// The patch it is part of.
+    pub patch: PatchId,
+    /// Its corners.
+    pub corners: Corners,
+    /// Its parts, once divided.
+    pub children: SmallVec<[ElementId; 4]>,
+    /// Depth below the patch, whose own element has level 0.
+    pub level: u32,
+    /// Why it was divided.
+    pub reason: Option<Reason>,
+    /// Area, m².
+    pub area: f64,
+}
+
+/// Why an element was divided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reason {
+    /// A uniform mesh was asked for.
+    Uniform,
+    /// Light varies more across it than interpolation can follow.
+    Gradient,
+    /// A light is seen from one part of it and not, or less, from another.
+    ShadowEdge,
+    /// A contact line runs along its border and light rises steeply beside it.
+    Contact,
+}
+
+/// A place on a surface where light is known.
+#[derive(Clone, Debug)]
+pub struct Vertex {
+    /// Index into [`crate::surface::Surfaces::list`].
+    pub surface: u32,
+    /// Coordinates on the surface's plane, m.
+    pub position: DVec2,
+    /// Where in space light is evaluated for it, m: moved a hair from the border into the patch.
+    pub site: DVec3,
+    /// True if a contact line runs through it: its light holds on this patch's side only.
+    pub on_contact: bool,
+    /// Light straight from emitters, once evaluated.
+    pub direct: Option<Direct>,
+    /// Irradiance by light reflected from other surfaces, W/m², once evaluated.
+    pub indirect: Option<Rgb>,
+}
+
+/// Light straight from emitters that arrives at a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Direct {
+    /// Irradiance, W/m².
+    pub irradiance: Rgb,
+    /// What the irradiance would be if nothing stood between, W/m².
+    pub unoccluded: Rgb,
+}
+
+impl Element {
+    /// True if it has not been divided.
+    pub fn is_leaf(&self) -> bool {
+        self.children.is_empty()
+    }
+}
+
+impl Vertex {
+    /// Irradiance by all light known so far, W/m².
+    pub fn irradiance(&self) -> Rgb {
+        self.direct.map_or(Rgb::ZERO, |d| d.irradiance) + self.indirect.unwrap_or(Rgb::ZERO)
+    }
+}
+
+impl Mesh {
+    /// The elements that have not been divided, in the order in which they were made.
+    pub fn leaves(&self) -> impl Iterator<Item = ElementId> + '_ {
+        (0..self.elements.len() as u32).map(ElementId).filter(|&e| self[e].is_leaf())
+    }
+
+    /// The surface an element lies on, as an index into [`crate::surface::Surfaces::list`].
+    pub fn surface_of(&self, element: ElementId) -> usize {
+        self[self[element].patch].surface as usize
+    }
+
+    /// An element's corners on its surface's plane, m.
+    pub fn outline(&self, element: ElementId) -> Convex {
+        self[element].corners.iter().map(|&v| self[v].position).collect()
+    }
+
+    /// Mean lengths of a quadrilateral's edges 0 and 2, and of its edges 1 and 3, m;
+    /// of any other polygon, its longest edge twice.
+    pub fn sides(&self, element: ElementId) -> [f64; 2] {
+        let outline = self.outline(element);
+        let lengths: SmallVec<[f64; 8]> =
+            polygon::edges(&outline).map(|[a, b]| a.distance(b)).collect();
+        match lengths.as_slice() {
+            &[a, b, c, d] => [(a + c) / 2.0, (b + d) / 2.0],
+            lengths => [lengths.iter().copied().fold(0.0, f64::max); 2],
+        }
+    }
+
+    fn area_of(&self, corners: &[VertexId]) -> f64 {
+        let outline: Convex = corners.iter().map(|&v| self[v].position).collect();
+        polygon::area(&outline)
+    }
+}

@@ -1,0 +1,101 @@
+//! Dividing an element: in quarters, or along a line in halves.
+//!
+//! New vertices are always midpoints of edges or the mean of the corners, so that neighbours that share
+//! an edge find the same vertices on it.
+
+use smallvec::SmallVec;
+
+use super::{Corners, Element, ElementId, Mesh, Reason, VertexId};
+
+/// A quadrilateral this much longer than wide is halved, not quartered.
+const LONG: f64 = 1.8;
+
+/// How to divide an element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Split {
+    /// A triangle or quadrilateral in four, any other polygon in one quadrilateral per corner.
+    Quarters,
+    /// A quadrilateral in two, along the line between the midpoints of its edges `k` and `k + 2`, `k` being 0 or 1.
+    Halves(usize),
+}
+
+/// The vertices at which an element is judged and divided.
+#[derive(Clone, Debug)]
+pub struct Middle {
+    /// Midpoint of each edge, beginning with that from the first to the second corner.
+    pub edges: Corners,
+    /// Mean of the corners.
+    pub centre: VertexId,
+}
+
+impl Mesh {
+    /// Divides a leaf; its children are leaves one level below.
+    pub fn split(&mut self, element: ElementId, split: Split, reason: Reason) {
+        let parent = &self[element];
+        assert!(parent.is_leaf(), "element {} is divided already", element.0);
+        let (patch, level) = (parent.patch, parent.level + 1);
+        let parts = self.parts(element, split);
+        let first = self.elements.len() as u32;
+        for corners in &parts {
+            let area = self.area_of(corners);
+            self.elements.push(Element {
+                patch,
+                corners: corners.clone(),
+                children: SmallVec::new(),
+                level,
+                reason: None,
+                area,
+            });
+        }
+        let parent = &mut self.elements[element.index()];
+        parent.children = (first..first + parts.len() as u32).map(ElementId).collect();
+        parent.reason = Some(reason);
+    }
+
+    /// The vertices in the middle of an element and of its edges, made where there are none.
+    pub fn middle(&mut self, element: ElementId) -> Middle {
+        let Element { patch, corners, .. } = self[element].clone();
+        let at: SmallVec<[_; 8]> = corners.iter().map(|&v| self[v].position).collect();
+        let edges = (0..at.len())
+            .map(|k| self.vertex(patch, (at[k] + at[(k + 1) % at.len()]) * 0.5))
+            .collect();
+        let centre = self.vertex(patch, at.iter().sum::<glam::DVec2>() / at.len() as f64);
+        Middle { edges, centre }
+    }
+
+    /// The division that keeps an element's parts as round as it can.
+    pub fn round_split(&self, element: ElementId) -> Split {
+        let [width, height] = self.sides(element);
+        match self[element].corners.len() {
+            4 if width > LONG * height => Split::Halves(0),
+            4 if height > LONG * width => Split::Halves(1),
+            _ => Split::Quarters,
+        }
+    }
+
+    fn parts(&mut self, element: ElementId, split: Split) -> SmallVec<[Corners; 4]> {
+        let Middle { edges: m, centre } = self.middle(element);
+        let c = self[element].corners.clone();
+        let n = c.len();
+        match split {
+            Split::Halves(k) => {
+                assert_eq!(n, 4, "only quadrilaterals are halved");
+                let [a, b, d, e] = [k, k + 1, (k + 2) % 4, (k + 3) % 4];
+                let halves = [[c[a], m[a], m[d], c[e]], [m[a], c[b], c[d], m[d]]];
+                halves.into_iter().map(Corners::from).collect()
+            }
+            Split::Quarters if n == 3 => {
+                let quarters = [
+                    [c[0], m[0], m[2]],
+                    [m[0], c[1], m[1]],
+                    [m[2], m[1], c[2]],
+                    [m[0], m[1], m[2]],
+                ];
+                quarters.iter().map(|q| Corners::from_slice(q)).collect()
+            }
+            Split::Quarters => {
+                (0..n).map(|k| Corners::from([c[k], m[k], centre, m[(k + n - 1) % n]])).collect()
+            }
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! Contact lines: where another surface stands on, touches or pierces a surface.
+//!
+//! Light jumps across such a line, so no element may lie on both sides of it.
+
+use super::Surface;
+use super::polygon::{Line, Segment, contains, distance, edges};
+
+/// Finds the contact lines of every surface with every other, and stores them in both.
+pub(super) fn find_contacts(surfaces: &mut [Surface], tolerance: f64) {
+    for (receiver, other) in neighbours(surfaces, tolerance) {
+        let contacts = contacts(&surfaces[receiver], &surfaces[other], tolerance);
+        surfaces[receiver].contacts.extend(contacts);
+    }
+}
+
+/// Ordered pairs of surfaces whose bounding boxes touch, by a sweep along x.
+fn neighbours(surfaces: &[Surface], tolerance: f64) -> Vec<(usize, usize)> {
+    let bounds: Vec<_> = surfaces.iter().map(Surface::bounds).collect();
+    let mut order: Vec<usize> = (0..surfaces.len()).collect();
+    order.sort_by(|&a, &b| bounds[a].0.x.total_cmp(&bounds[b].0.x));
+    let mut pairs = Vec::new();
+    for (k, &a) in order.iter().enumerate() {
+        let near =
+            order[k + 1..].iter().take_while(|&&b| bounds[b].0.x <= bounds[a].1.x + tolerance);
+        for &b in near {
+            let gap = (bounds[a].0 - bounds[b].1).max(bounds[b].0 - bounds[a].1).max_element();
+            if gap <= tolerance {
+                pairs.extend([(a, b), (b, a)]);
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
+/// The lines along which `other` meets the front or the plane of `receiver`, inside of it.
+fn contacts(receiver: &Surface, other: &Surface, tolerance: f64) -> Vec<Segment> {
+    let heights = |ring: &[_]| -> Vec<f64> {
+        let height = |&p: &_| receiver.plane.height(other.plane.lift(p));
+        ring.iter().map(height).map(|h: f64| if h.abs() <= tolerance { 0.0 } else { h }).collect()
+    };
+    let heights: Vec<Vec<f64>> = other.rings.iter().map(|ring| heights(ring)).collect();
+    let all = || heights.iter().flatten();
+    let behind = all().all(|&h| h <= 0.0) && all().any(|&h| h < 0.0);
+    if behind || all().all(|&h| h > 0.0) {
+        return Vec::new();
+    }
+    let mut segments = touching_edges(receiver, other, &heights);
+    segments.extend(piercing_line(receiver, other, &heights));
+    segments.into_iter().flat_map(|segment| inside(receiver, segment, tolerance)).collect()
+}
+
+/// Edges of `other` that lie in the receiver's plane.
+fn touching_edges(receiver: &Surface, other: &Surface, heights: &[Vec<f64>]) -> Vec<Segment> {
+    let mut segments = Vec::new();
+    for (ring, heights) in other.rings.iter().zip(heights) {
+        for (k, edge) in edges(ring).enumerate() {
+            if heights[k] == 0.0 && heights[(k + 1) % heights.len()] == 0.0 {
+                segments.push(edge.map(|p| receiver.plane.flatten(other.plane.lift(p))));
+            }
+        }
+    }
+    segments
+}
+
+/// The pieces of the line in which `other` crosses the receiver's plane, in pairs of crossings along it.
+fn piercing_line(receiver: &Surface, other: &Surface, heights: &[Vec<f64>]) -> Vec<Segment> {
+    let mut crossings = Vec::new();
+    for (ring, heights) in other.rings.iter().zip(heights) {
+        for (k, [a, b]) in edges(ring).enumerate() {
+            let (from, to) = (heights[k], heights[(k + 1) % heights.len()]);
+            if (from < 0.0) != (to < 0.0) {
+                let point = other.plane.lift(a.lerp(b, from / (from - to)));
+                crossings.push(receiver.plane.flatten(point));
+            }
+        }
+    }
+    let along = receiver.plane.normal.cross(other.plane.normal);
+    let along = receiver.plane.flatten(receiver.plane.origin + along);
+    crossings.sort_by(|a, b| a.dot(along).total_cmp(&b.dot(along)));
+    crossings.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// The parts of a segment inside a surface and not on its outline.
+fn inside(surface: &Surface, segment: Segment, tolerance: f64) -> Vec<Segment> {
+    let outline = || surface.rings.iter().flat_map(|ring| edges(ring));
+    let mut parts = vec![segment];
+    for edge in outline() {
+        let line = Line::through(edge);
+        let cut = |part: Segment| match line.split_segment(part, tolerance) {
+            [None, None] => [Some(part), None],
+            halves => halves,
+        };
+        parts = parts.into_iter().flat_map(cut).flatten().collect();
+    }
+    let is_inside = |&[a, b]: &Segment| {
+        let middle = a.midpoint(b);
+        a.distance(b) > tolerance
+            && contains(&surface.rings, middle)
+            && outline().all(|edge| distance(edge, middle) > tolerance)
+    };
+    parts.retain(is_inside);
+    parts
+}

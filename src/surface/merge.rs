@@ -1,0 +1,167 @@
+//! Joins coplanar neighbours of one look into planar polygons, holes and all.
+
+use std::collections::HashMap;
+
+use glam::{DAffine2, DMat2, DVec2, DVec3};
+
+use super::plane::Plane;
+use super::polygon::{Ring, area};
+use crate::scene::{Face, Scene};
+
+/// A planar region: the faces it was joined from and its outline.
+pub(super) struct Region {
+    pub(super) plane: Plane,
+    /// Indices into [`Scene::faces`].
+    pub(super) faces: Vec<usize>,
+    /// Outer ring first, counter-clockwise; holes clockwise.
+    pub(super) rings: Vec<Ring>,
+    /// From plane coordinates to texture coordinates.
+    pub(super) uv: Option<DAffine2>,
+}
+
+/// The regions of a scene, in the order of their first faces.
+pub(super) fn regions(scene: &Scene, tolerance: f64) -> Vec<Region> {
+    let neighbours = Neighbours::new(scene);
+    let mut taken = vec![false; scene.faces.len()];
+    let mut regions = Vec::new();
+    for seed in 0..scene.faces.len() {
+        if taken[seed] {
+            continue;
+        }
+        let plane = plane_of(scene, &scene.faces[seed]);
+        let uv = uv_map(scene, &plane, &scene.faces[seed]);
+        let mut faces = vec![seed];
+        taken[seed] = true;
+        let mut next = 0;
+        while next < faces.len() {
+            for other in neighbours.of(scene, faces[next]) {
+                let fits = || continues(scene, seed, other, (&plane, uv), tolerance);
+                if !taken[other] && fits() {
+                    taken[other] = true;
+                    faces.push(other);
+                }
+            }
+            next += 1;
+        }
+        let rings = outline(scene, &plane, &faces);
+        regions.push(Region { plane, faces, rings, uv });
+    }
+    regions
+}
+
+/// Faces by their directed edges.
+struct Neighbours(HashMap<[u32; 2], Vec<usize>>);
+
+impl Neighbours {
+    fn new(scene: &Scene) -> Self {
+        let mut by_edge: HashMap<[u32; 2], Vec<usize>> = HashMap::new();
+        for (index, face) in scene.faces.iter().enumerate() {
+            for edge in edges(face) {
+                by_edge.entry(edge).or_default().push(index);
+            }
+        }
+        Self(by_edge)
+    }
+
+    /// Faces that share an edge with this one, running along it the other way.
+    fn of<'a>(&'a self, scene: &'a Scene, face: usize) -> impl Iterator<Item = usize> + 'a {
+        edges(&scene.faces[face]).filter_map(|[a, b]| self.0.get(&[b, a])).flatten().copied()
+    }
+}
+
+fn edges(face: &Face) -> impl Iterator<Item = [u32; 2]> + '_ {
+    let next = face.vertices.iter().cycle().skip(1);
+    face.vertices.iter().zip(next).map(|(&a, &b)| [a, b])
+}
+
+fn corners<'a>(scene: &'a Scene, face: &'a Face) -> impl Iterator<Item = DVec3> + 'a {
+    face.vertices.iter().map(|&v| scene.positions[v as usize])
+}
+
+/// Best plane of a face (Newell's normal), its first axis along the longest edge.
+fn plane_of(scene: &Scene, face: &Face) -> Plane {
+    let at = |v: u32| scene.positions[v as usize];
+    let origin = at(face.vertices[0]);
+    let normal: DVec3 = edges(face).map(|[a, b]| (at(a) - origin).cross(at(b) - origin)).sum();
+    let longest = edges(face)
+        .map(|[a, b]| at(b) - at(a))
+        .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))
+        .unwrap_or(DVec3::X);
+    Plane::new(origin, normal.normalize_or(DVec3::Y), longest)
+}
+
+/// True if `other` may be one region with `seed`. Facets of a curved surface stay apart: each has its own light.
+fn continues(
+    scene: &Scene,
+    seed: usize,
+    other: usize,
+    (plane, uv): (&Plane, Option<DAffine2>),
+    tolerance: f64,
+) -> bool {
+    let (first, face) = (&scene.faces[seed], &scene.faces[other]);
+    let same_look = first.material == face.material && first.tint == face.tint;
+    let flat = first.normals.is_empty() && face.normals.is_empty();
+    let same_picture = || match (uv, uv_map(scene, plane, face)) {
+        (None, None) => true,
+        (Some(a), Some(b)) => {
+            (a.matrix2 - b.matrix2).abs_diff_eq(DMat2::ZERO, 1e-4)
+                && corners(scene, face).all(|p| {
+                    let p = plane.flatten(p);
+                    a.transform_point2(p).distance(b.transform_point2(p)) < 1e-4
+                })
+        }
+        _ => false,
+    };
+    same_look
+        && flat
+        && plane_of(scene, face).normal.dot(plane.normal) > 0.5
+        && corners(scene, face).all(|p| plane.height(p).abs() <= tolerance)
+        && same_picture()
+}
+
+/// The affine map from plane to texture coordinates, by the widest corner of the face.
+fn uv_map(scene: &Scene, plane: &Plane, face: &Face) -> Option<DAffine2> {
+    if face.uvs.is_empty() || scene.materials[face.material as usize].texture.is_none() {
+        return None;
+    }
+    let places: Vec<DVec2> = corners(scene, face).map(|p| plane.flatten(p)).collect();
+    let n = places.len();
+    let frame = |points: &[DVec2], k: usize| {
+        let (here, next, last) = (points[k], points[(k + 1) % n], points[(k + n - 1) % n]);
+        DMat2::from_cols(next - here, last - here)
+    };
+    let spread = |k: &usize| frame(&places, *k).determinant().abs();
+    let widest = (0..n).max_by(|a, b| spread(a).total_cmp(&spread(b)))?;
+    let matrix = frame(&face.uvs, widest) * frame(&places, widest).inverse();
+    let translation = face.uvs[widest] - matrix * places[widest];
+    let map = DAffine2::from_mat2_translation(matrix, translation);
+    map.is_finite().then_some(map)
+}
+
+/// Rings of the edges that only one of the faces has.
+fn outline(scene: &Scene, plane: &Plane, faces: &[usize]) -> Vec<Ring> {
+    let mut follow: HashMap<u32, Vec<u32>> = HashMap::new();
+    let mut starts = Vec::new();
+    let all: HashMap<[u32; 2], ()> =
+        faces.iter().flat_map(|&f| edges(&scene.faces[f])).map(|edge| (edge, ())).collect();
+    for [a, b] in faces.iter().flat_map(|&f| edges(&scene.faces[f])) {
+        if !all.contains_key(&[b, a]) {
+            follow.entry(a).or_default().push(b);
+            starts.push(a);
+        }
+    }
+    let mut rings = Vec::new();
+    for start in starts {
+        let mut ring = Ring::new();
+        let mut at = start;
+        while let Some(next) = follow.get_mut(&at).and_then(Vec::pop) {
+            ring.push(plane.flatten(scene.positions[at as usize]));
+            at = next;
+        }
+        if ring.len() >= 3 {
+            rings.push(ring);
+        }
+    }
+    rings.sort_by(|a, b| area(b).total_cmp(&area(a)));
+    rings
+}

@@ -1,0 +1,141 @@
+//! Planar polygons of one material, made by joining coplanar neighbours, and where others touch them.
+
+mod contact;
+pub mod cut;
+mod merge;
+mod picture;
+mod plane;
+pub mod polygon;
+mod weld;
+
+use glam::{DAffine2, DMat2, DVec2, DVec3};
+
+use crate::colour::Rgb;
+use crate::scene::{Light, Material, Scene, Texture};
+
+pub use picture::mean_texture;
+pub use plane::Plane;
+pub use polygon::{Ring, Segment};
+pub use weld::Weld;
+
+/// All surfaces of a scene, and what else of it light and pictures depend on.
+#[derive(Clone, Debug)]
+pub struct Surfaces {
+    /// The surfaces, in the order in which the scene first names them.
+    pub list: Vec<Surface>,
+    /// Lights without a surface.
+    pub lights: Vec<Light>,
+    /// The scene's materials.
+    pub materials: Vec<Material>,
+    /// The scene's textures.
+    pub textures: Vec<Texture>,
+    /// Diagonal of the scene's bounding box, m.
+    pub extent: f64,
+    /// Distances that count as zero, m.
+    pub tolerance: f64,
+}
+
+/// A planar polygon of one material that reflects and emits from its front.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// Where it lies.
+    pub plane: Plane,
+    /// Outer ring first, counter-clockwise; holes clockwise; coordinates of the plane, m.
+    pub rings: Vec<Ring>,
+    /// Lines along which another surface meets this one.
+    pub contacts: Vec<Segment>,
+    /// Diffuse reflectance ρ, 0..=0.99, without the texture's part.
+    pub reflectance: Rgb,
+    /// Exitance E = πL, W/m², without the texture's part.
+    pub exitance: Rgb,
+    /// Index into [`Surfaces::materials`].
+    pub material: u32,
+    /// From plane coordinates to texture coordinates, where there is a texture.
+    pub uv: Option<DAffine2>,
+    /// Unit normals of the curved surface it approximates, one per corner of the outer ring; empty if flat.
+    pub normals: Vec<DVec3>,
+    /// True if it is one of the two sides of a double-sided polygon; the other side has an entry of its own.
+    pub two_sided: bool,
+    /// True for the second entry of a double-sided polygon, which blocks no light beyond the first.
+    pub is_back: bool,
+}
+
+/// Distances below this share of the scene's extent count as zero: ten times the rounding of 32-bit coordinates.
+const TOLERANCE: f64 = 2e-7;
+
+/// The surfaces of a scene and their contact lines.
+pub fn surfaces_of(scene: &Scene) -> Surfaces {
+    let extent = scene.extent();
+    let tolerance = TOLERANCE * extent;
+    let mut list = Vec::new();
+    for region in merge::regions(scene, tolerance) {
+        if region.rings.is_empty() {
+            continue;
+        }
+        let front = Surface::front(scene, region);
+        let back = front.two_sided.then(|| front.back());
+        list.push(front);
+        list.extend(back);
+    }
+    contact::find_contacts(&mut list, tolerance);
+    Surfaces {
+        list,
+        lights: scene.lights.clone(),
+        materials: scene.materials.clone(),
+        textures: scene.textures.clone(),
+        extent,
+        tolerance,
+    }
+}
+
+impl Surface {
+    fn front(scene: &Scene, region: merge::Region) -> Self {
+        let face = &scene.faces[region.faces[0]];
+        let material = &scene.materials[face.material as usize];
+        Self {
+            plane: region.plane,
+            rings: region.rings,
+            contacts: Vec::new(),
+            reflectance: material.reflectance * face.tint,
+            exitance: material.emission * std::f64::consts::PI,
+            material: face.material,
+            uv: region.uv,
+            normals: face.normals.iter().map(|n| n.as_dvec3()).collect(),
+            two_sided: material.double_sided,
+            is_back: false,
+        }
+    }
+
+    /// The other side of a double-sided polygon: the same places, seen from behind.
+    fn back(&self) -> Self {
+        let swap = |ring: &Ring| ring.iter().rev().map(|p| DVec2::new(p.y, p.x)).collect();
+        Self {
+            plane: self.plane.reversed(),
+            rings: self.rings.iter().map(swap).collect(),
+            uv: self.uv.map(|uv| uv * DAffine2::from_mat2(SWAP)),
+            normals: self.normals.iter().rev().map(|&n| -n).collect(),
+            is_back: true,
+            ..self.clone()
+        }
+    }
+
+    /// Opposite corners of its bounding box, m.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let corners = self.rings.iter().flatten().map(|&p| self.plane.lift(p));
+        corners.fold(empty, |(low, high), p| (low.min(p), high.max(p)))
+    }
+
+    /// Area, m².
+    pub fn area(&self) -> f64 {
+        self.rings.iter().map(|ring| polygon::area(ring)).sum()
+    }
+
+    /// True if it sends out light of its own.
+    pub fn is_emitter(&self) -> bool {
+        self.exitance.max_element() > 0.0
+    }
+}
+
+/// Exchanges the two coordinates.
+const SWAP: DMat2 = DMat2::from_cols(DVec2::Y, DVec2::X);
