@@ -17,9 +17,21 @@ pub mod surface;
 
 pub mod mesh;
 
+pub mod visibility;
+
+pub mod form_factor;
+
+pub mod direct;
+
+pub mod refine;
+
+pub mod solver;
+
 pub mod reconstruct;
 
 pub use error::{Error, Result};
-pub use reconstruct::TriMesh;
+pub use reconstruct::{TriMesh, reconstruct};
 pub use scene::{Scene, load};
-pub use settings::Settings;
+pub use settings::{Length, Settings};
+pub use solver::{Solution, solve};
+pub use surface::{Surfaces, surfaces_of};

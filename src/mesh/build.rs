@@ -72,6 +72,7 @@ impl Mesh {
             area,
             reflectance: surface.reflectance * reflectance_texture,
             exitance: surface.exitance * exitance_texture,
+            two_sided: surface.two_sided,
             contacts: touching(&surface.contacts, outline, surfaces.tolerance),
         });
         let corners: Corners = outline.iter().map(|&p| self.vertex(patch, p)).collect();

@@ -48,6 +48,8 @@ pub struct Patch {
     pub reflectance: Rgb,
     /// Exitance, W/m², the mean of the texture included.
     pub exitance: Rgb,
+    /// True if a patch on the other side of a double-sided polygon covers the same place.
+    pub two_sided: bool,
     /// Contact lines of its surface that touch it, as indices into [`crate::surface::Surface::contacts`].
     contacts: SmallVec<[u32; 4]>,
 }
@@ -106,6 +108,14 @@ pub struct Direct {
     pub irradiance: Rgb,
     /// What the irradiance would be if nothing stood between, W/m².
     pub unoccluded: Rgb,
+}
+
+impl Direct {
+    /// Share of the unoccluded irradiance that arrives, 0..=1; 1 where none could.
+    pub fn visible(&self) -> f64 {
+        let all = self.unoccluded.element_sum();
+        if all > 0.0 { self.irradiance.element_sum() / all } else { 1.0 }
+    }
 }
 
 impl Element {

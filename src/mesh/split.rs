@@ -3,6 +3,7 @@
 //! New vertices are always midpoints of edges or the mean of the corners, so that neighbours that share
 //! an edge find the same vertices on it.
 
+use glam::DVec2;
 use smallvec::SmallVec;
 
 use super::{Corners, Element, ElementId, Mesh, Reason, VertexId};
@@ -59,8 +60,19 @@ impl Mesh {
         let edges = (0..at.len())
             .map(|k| self.vertex(patch, (at[k] + at[(k + 1) % at.len()]) * 0.5))
             .collect();
-        let centre = self.vertex(patch, at.iter().sum::<glam::DVec2>() / at.len() as f64);
+        let centre = self.vertex(patch, at.iter().sum::<DVec2>() / at.len() as f64);
         Middle { edges, centre }
+    }
+
+    /// The vertices in the middle of an element and of its edges, if all are there.
+    pub fn find_middle(&self, element: ElementId) -> Option<Middle> {
+        let Element { patch, corners, .. } = &self[element];
+        let at: SmallVec<[DVec2; 8]> = corners.iter().map(|&v| self[v].position).collect();
+        let edges = (0..at.len())
+            .map(|k| self.find_vertex(*patch, (at[k] + at[(k + 1) % at.len()]) * 0.5))
+            .collect::<Option<Corners>>()?;
+        let centre = self.find_vertex(*patch, at.iter().sum::<DVec2>() / at.len() as f64)?;
+        Some(Middle { edges, centre })
     }
 
     /// The division that keeps an element's parts as round as it can.

@@ -1,5 +1,85 @@
 //! Radiosity at vertices, on a triangulation without T-junctions.
+//!
+//! Every leaf is outlined with all the places that lie on its edges, its own or another's; so neighbours agree on
+//! their border, within a surface and where surfaces meet. Light is shared by leaves that
+//! share a vertex of the mesh, which those on two sides of a contact line do not.
 
+mod sheet;
+mod smooth;
+mod stitch;
+mod triangulate;
 mod trimesh;
 
+use rayon::prelude::*;
+
+use crate::mesh::{ElementId, Mesh, VertexId};
+use crate::solver::Solution;
+use crate::surface::{Surfaces, Weld};
+
 pub use trimesh::{Part, TriMesh};
+
+use sheet::Sheet;
+use stitch::Places;
+
+/// The triangle mesh of a solution.
+pub fn reconstruct(surfaces: &Surfaces, solution: &Solution) -> TriMesh {
+    let mesh = &solution.mesh;
+    let leaves = leaves_by_surface(surfaces, mesh);
+    let mut weld = Weld::new(surfaces.tolerance);
+    let outlines: Vec<Vec<Vec<u32>>> = leaves
+        .iter()
+        .enumerate()
+        .map(|(surface, leaves)| {
+            let plane = &surfaces.list[surface].plane;
+            let place = |v: VertexId| plane.lift(mesh[v].position);
+            let outline = |&leaf: &ElementId| {
+                mesh[leaf].corners.iter().map(|v| weld.number(place(*v))).collect()
+            };
+            leaves.iter().map(outline).collect()
+        })
+        .collect();
+    let places = Places::new(&weld, surfaces.extent, surfaces.tolerance);
+    let mut sheets: Vec<Sheet> = (0..leaves.len())
+        .into_par_iter()
+        .map(|surface| {
+            Sheet::new((surfaces, mesh), &places, surface, (&leaves[surface], &outlines[surface]))
+        })
+        .collect();
+    smooth::average_across_smooth_edges(&mut sheets);
+    assemble(surfaces, &places, &sheets)
+}
+
+fn leaves_by_surface(surfaces: &Surfaces, mesh: &Mesh) -> Vec<Vec<ElementId>> {
+    let mut leaves = vec![Vec::new(); surfaces.list.len()];
+    for leaf in mesh.leaves() {
+        leaves[mesh.surface_of(leaf)].push(leaf);
+    }
+    leaves
+}
+
+/// Joins the sheets, material by material.
+fn assemble(surfaces: &Surfaces, places: &Places, sheets: &[Sheet]) -> TriMesh {
+    let mut mesh = TriMesh { textures: surfaces.textures.clone(), ..TriMesh::default() };
+    for (number, material) in surfaces.materials.iter().enumerate() {
+        let first = mesh.triangles.len();
+        for (surface, sheet) in surfaces.list.iter().zip(sheets) {
+            if surface.material as usize == number {
+                let base = mesh.positions.len() as u32;
+                for corner in &sheet.corners {
+                    mesh.positions.push(places.at(corner.place));
+                    mesh.normals.push(corner.normal.as_vec3());
+                    mesh.uvs.push(corner.uv.as_vec2());
+                    mesh.radiosity.push(corner.radiosity);
+                    mesh.texture_mean.push(corner.texture_mean);
+                }
+                mesh.triangles
+                    .extend(sheet.triangles.iter().map(|t| t.map(|corner| base + corner)));
+            }
+        }
+        if mesh.triangles.len() > first {
+            let (name, texture) = (material.name.clone(), material.texture);
+            mesh.parts.push(Part { name, triangles: first..mesh.triangles.len(), texture });
+        }
+    }
+    mesh
+}

@@ -1,0 +1,166 @@
+//! Light straight from emitters: exact where a light is a polygon, by rays where it is a point.
+//!
+//! It carries the hard edges, so it is never carried by the hemicube.
+
+mod punctual;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::colour::Rgb;
+use crate::form_factor::contour::{point_to_polygon, point_to_polygon_above};
+use crate::mesh::{Direct, Mesh, Vertex};
+use crate::scene::Light;
+use crate::surface::Surfaces;
+use crate::surface::cut::{Cuts, convex_pieces};
+use crate::visibility::{HalfSpace, Occluders, Pieces, Polygon};
+
+use punctual::Source;
+
+/// All emitters of a scene.
+#[derive(Clone, Debug)]
+pub struct Lamps {
+    areas: Vec<AreaLamp>,
+    points: Vec<Light>,
+}
+
+/// A convex polygon that emits from its front.
+#[derive(Clone, Debug)]
+struct AreaLamp {
+    corners: Polygon,
+    front: HalfSpace,
+    /// W/m².
+    exitance: Rgb,
+}
+
+impl Lamps {
+    /// The emitting surfaces, in convex pieces, and the lights of a scene.
+    pub fn new(surfaces: &Surfaces, mesh: &Mesh) -> Self {
+        let mut areas = Vec::new();
+        for (number, surface) in surfaces.list.iter().enumerate().filter(|(_, s)| s.is_emitter()) {
+            let front = HalfSpace::new(surface.plane.origin, surface.plane.normal);
+            let textured = surfaces.materials[surface.material as usize].emission_texture.is_some();
+            if textured {
+                let patches = mesh.patches.iter().filter(|p| p.surface == number as u32);
+                areas.extend(patches.map(|patch| AreaLamp {
+                    corners: patch.corners.iter().copied().collect(),
+                    front,
+                    exitance: patch.exitance,
+                }));
+            } else {
+                let cuts =
+                    Cuts { segments: &[], size: f64::INFINITY, tolerance: surfaces.tolerance };
+                areas.extend(convex_pieces(&surface.rings, &cuts).iter().map(|piece| AreaLamp {
+                    corners: piece.iter().map(|&p| surface.plane.lift(p)).collect(),
+                    front,
+                    exitance: surface.exitance,
+                }));
+            }
+        }
+        areas.retain(|lamp| lamp.exitance.max_element() > 0.0);
+        Self { areas, points: surfaces.lights.clone() }
+    }
+
+    /// True if there is no light at all.
+    pub fn is_empty(&self) -> bool {
+        self.areas.is_empty() && self.points.is_empty()
+    }
+
+    /// True if part of the light comes from points: such shadows are hard.
+    pub fn has_points(&self) -> bool {
+        !self.points.is_empty()
+    }
+
+    /// What arrives at a place with unit `normal`.
+    pub fn shine(&self, occluders: &Occluders, place: DVec3, normal: DVec3) -> Direct {
+        let mut light = Direct::default();
+        for lamp in &self.areas {
+            let unoccluded = lamp.reach(place, normal);
+            if !unoccluded.is_empty() {
+                let all = point_to_polygon_above(place, normal, &unoccluded);
+                let seen = lamp.seen(occluders, (place, normal), &unoccluded).min(all);
+                light.unoccluded += lamp.exitance * all;
+                light.irradiance += lamp.exitance * seen;
+            }
+        }
+        for point in &self.points {
+            if let Some((irradiance, source)) = punctual::irradiance(point, place, normal) {
+                light.unoccluded += irradiance;
+                let far_end = match source {
+                    Source::Position(position) => position,
+                    Source::Direction(direction) => place + direction * occluders.extent(),
+                };
+                if !occluders.blocks(place, far_end) {
+                    light.irradiance += irradiance;
+                }
+            }
+        }
+        light
+    }
+}
+
+/// Irradiance of vertices by all lamps, in their order.
+pub fn light_vertices(
+    lamps: &Lamps,
+    occluders: &Occluders,
+    surfaces: &Surfaces,
+    vertices: &[&Vertex],
+) -> Vec<Direct> {
+    let light = |vertex: &&Vertex| {
+        let normal = surfaces.list[vertex.surface as usize].plane.normal;
+        lamps.shine(occluders, vertex.site, normal)
+    };
+    vertices.par_iter().map(light).collect()
+}
+
+impl AreaLamp {
+    /// The part above the horizon of a place in front of the lamp.
+    fn reach(&self, place: DVec3, normal: DVec3) -> Polygon {
+        if self.front.depth(place) <= 0.0 {
+            return Polygon::new();
+        }
+        let horizon = HalfSpace::new(place, normal);
+        if self.corners.iter().all(|&corner| horizon.depth(corner) >= 0.0) {
+            return self.corners.clone();
+        }
+        horizon.clip(&self.corners)
+    }
+
+    /// Form factor of the part that is not hidden.
+    fn seen(&self, occluders: &Occluders, (place, normal): (DVec3, DVec3), above: &[DVec3]) -> f64 {
+        let exact = occluders.visible_part(place, above, self.front.normal);
+        exact.map_or_else(
+            || sampled(occluders, (place, normal), above),
+            |pieces: Pieces| {
+                pieces.iter().map(|piece| point_to_polygon_above(place, normal, piece)).sum()
+            },
+        )
+    }
+}
+
+/// Cells along an edge of each triangle of a light that is sampled.
+const STRATA: u32 = 12;
+
+/// The visible part's form factor by a ray to each cell of the polygon: the fallback where much stands in between.
+fn sampled(occluders: &Occluders, (place, normal): (DVec3, DVec3), polygon: &[DVec3]) -> f64 {
+    let mut sum = 0.0;
+    for k in 1..polygon.len() - 1 {
+        let [a, b, c] = [polygon[0], polygon[k], polygon[k + 1]];
+        let (u, v) = ((b - a) / f64::from(STRATA), (c - a) / f64::from(STRATA));
+        for row in 0..STRATA {
+            for column in 0..STRATA - row {
+                let corner = a + u * f64::from(column) + v * f64::from(row);
+                let mut cells = vec![[corner, corner + u, corner + v]];
+                if column + row + 1 < STRATA {
+                    cells.push([corner + u, corner + u + v, corner + v]);
+                }
+                for cell in cells {
+                    if !occluders.blocks(place, cell.iter().sum::<DVec3>() / 3.0) {
+                        sum += point_to_polygon(place, normal, &cell);
+                    }
+                }
+            }
+        }
+    }
+    sum
+}

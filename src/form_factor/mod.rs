@@ -1,0 +1,4 @@
+//! Form factors: the share of the light leaving one place that arrives at another.
+
+pub mod contour;
+pub mod hemicube;

@@ -1,0 +1,177 @@
+//! The triangles of one surface.
+
+use std::collections::HashMap;
+
+use glam::{DVec2, DVec3};
+
+use super::smooth::normal_at;
+use super::stitch::Places;
+use super::triangulate::triangulate;
+use crate::colour::Rgb;
+use crate::mesh::{Element, ElementId, Mesh, VertexId};
+use crate::surface::{Surface, Surfaces, mean_texture};
+
+/// A triangulated surface.
+#[derive(Debug)]
+pub(super) struct Sheet {
+    pub(super) corners: Vec<Corner>,
+    /// Indices into `corners`.
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// True if the surface stands for a part of a curved one.
+    pub(super) curved: bool,
+}
+
+/// What will be a vertex of the triangle mesh.
+#[derive(Clone, Debug)]
+pub(super) struct Corner {
+    pub(super) place: u32,
+    pub(super) normal: DVec3,
+    pub(super) uv: DVec2,
+    pub(super) radiosity: Rgb,
+    pub(super) texture_mean: Rgb,
+}
+
+/// Where a corner has its light from: a vertex of the mesh, or the middle of an edge between two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Source {
+    Vertex(VertexId),
+    Between(u32, VertexId, VertexId),
+}
+
+/// Sums over the leaves that share a corner, by area.
+#[derive(Clone, Copy, Debug, Default)]
+struct Look {
+    area: f64,
+    reflectance_texture: Rgb,
+    exitance_texture: Rgb,
+}
+
+/// Collects the corners of a sheet.
+struct Builder<'a> {
+    mesh: &'a Mesh,
+    surface: &'a Surface,
+    places: &'a Places,
+    numbers: HashMap<Source, u32>,
+    corners: Vec<(Corner, Rgb)>,
+    looks: Vec<Look>,
+}
+
+impl Sheet {
+    /// Triangulates the `leaves` of a surface, outlined by places at their corners.
+    pub(super) fn new(
+        (surfaces, mesh): (&Surfaces, &Mesh),
+        places: &Places,
+        surface: usize,
+        (leaves, outlines): (&[ElementId], &[Vec<u32>]),
+    ) -> Self {
+        let surface = &surfaces.list[surface];
+        let mut builder = Builder {
+            mesh,
+            surface,
+            places,
+            numbers: HashMap::new(),
+            corners: Vec::new(),
+            looks: Vec::new(),
+        };
+        let mut loops = Vec::new();
+        let mut numbered = Vec::new();
+        for (&leaf, outline) in leaves.iter().zip(outlines) {
+            let look = look(surfaces, surface, mesh, leaf);
+            let (places, corners) = builder.outline(&mesh[leaf], outline, look);
+            numbered.push(places.iter().copied().zip(corners).collect::<HashMap<u32, u32>>());
+            loops.push(places);
+        }
+        let tiles = triangulate(&loops, |place| surface.plane.flatten(places.at(place)));
+        let triangle =
+            |tile: &super::triangulate::Tile| tile.corners.map(|p| numbered[tile.leaf][&p]);
+        Self {
+            triangles: tiles.iter().map(triangle).collect(),
+            corners: builder.finish(),
+            curved: !surface.normals.is_empty(),
+        }
+    }
+}
+
+impl Builder<'_> {
+    /// A leaf's outline with the places that hang on it, and the corners there.
+    fn outline(&mut self, leaf: &Element, outline: &[u32], look: Look) -> (Vec<u32>, Vec<u32>) {
+        let (mut places, mut corners) = (Vec::new(), Vec::new());
+        for (k, (&place, &vertex)) in outline.iter().zip(&leaf.corners).enumerate() {
+            let next = (k + 1) % outline.len();
+            let light = self.mesh[vertex].irradiance();
+            places.push(place);
+            corners.push(self.corner(Source::Vertex(vertex), place, light, look));
+            let ends = (vertex, leaf.corners[next]);
+            for hanging in self.places.between(place, outline[next]) {
+                let (source, light) = self.hanging(leaf, ends, (place, outline[next]), hanging);
+                places.push(hanging);
+                corners.push(self.corner(source, hanging, light, look));
+            }
+        }
+        (places, corners)
+    }
+
+    /// Light at a place on an edge: what is known there, else what is interpolated along the edge.
+    fn hanging(
+        &self,
+        leaf: &Element,
+        (a, b): (VertexId, VertexId),
+        (from, to): (u32, u32),
+        place: u32,
+    ) -> (Source, Rgb) {
+        let at = |place| self.places.at(place);
+        let known = self.mesh.find_vertex(leaf.patch, self.surface.plane.flatten(at(place)));
+        let lit = |v: &VertexId| self.mesh[*v].direct.is_some() && self.mesh[*v].indirect.is_some();
+        if let Some(vertex) = known.filter(lit) {
+            return (Source::Vertex(vertex), self.mesh[vertex].irradiance());
+        }
+        let share = at(from).distance(at(place)) / at(from).distance(at(to));
+        let light = self.mesh[a].irradiance().lerp(self.mesh[b].irradiance(), share);
+        (Source::Between(place, a.min(b), a.max(b)), light)
+    }
+
+    fn corner(&mut self, source: Source, place: u32, irradiance: Rgb, look: Look) -> u32 {
+        let number = *self.numbers.entry(source).or_insert_with(|| {
+            let position = self.surface.plane.flatten(self.places.at(place));
+            let corner = Corner {
+                place,
+                normal: normal_at(self.surface, position),
+                uv: self.surface.uv.map_or(DVec2::ZERO, |uv| uv.transform_point2(position)),
+                radiosity: Rgb::ZERO,
+                texture_mean: Rgb::ONE,
+            };
+            self.corners.push((corner, irradiance));
+            self.looks.push(Look::default());
+            self.corners.len() as u32 - 1
+        });
+        self.looks[number as usize].add(look);
+        number
+    }
+
+    /// The corners with their radiosities: B = E + ρ H, texture means included.
+    fn finish(self) -> Vec<Corner> {
+        let Surface { reflectance, exitance, .. } = *self.surface;
+        let with_light = |((corner, irradiance), look): ((Corner, Rgb), Look)| {
+            let texture_mean = look.reflectance_texture / look.area;
+            let emitted = exitance * look.exitance_texture / look.area;
+            let radiosity = emitted + reflectance * texture_mean * irradiance;
+            Corner { radiosity, texture_mean, ..corner }
+        };
+        self.corners.into_iter().zip(self.looks).map(with_light).collect()
+    }
+}
+
+impl Look {
+    fn add(&mut self, other: Self) {
+        self.area += other.area;
+        self.reflectance_texture += other.reflectance_texture * other.area;
+        self.exitance_texture += other.exitance_texture * other.area;
+    }
+}
+
+/// Area and mean texture of a leaf.
+fn look(surfaces: &Surfaces, surface: &Surface, mesh: &Mesh, leaf: ElementId) -> Look {
+    let [reflectance_texture, exitance_texture] =
+        mean_texture(surfaces, surface, &mesh.outline(leaf));
+    Look { area: mesh[leaf].area, reflectance_texture, exitance_texture }
+}

@@ -1,0 +1,143 @@
+//! The oracle: whether interpolation across an element is good enough, and if not, where to divide it.
+//!
+//! Interpolated values are compared with values evaluated afresh: at the midpoints of the edges, at the centre,
+//! and, for direct light, at probes in between, so that a small shadow is not overlooked.
+
+use smallvec::SmallVec;
+
+use crate::colour::Rgb;
+use crate::mesh::{ElementId, Mesh, Middle, Reason, Split, Vertex};
+use crate::settings::Settings;
+
+/// A halved quadrilateral may become this much longer than wide; its triangles then keep 11° and more.
+const SLENDER: f64 = 5.0;
+
+/// Halving must leave at most this share of the error that is allowed.
+const RESIDUE: f64 = 0.7;
+
+/// Elements of this share of the scene's extent are held to the tolerance as it is;
+/// larger ones more strictly and smaller ones less, since an error counts by the area that it spoils.
+const PLAIN_SIZE: f64 = 0.02;
+
+/// Judges elements by one kind of light.
+#[derive(Clone, Debug)]
+pub struct Oracle {
+    tolerance: f64,
+    min_element: f64,
+    max_level: u32,
+    plain_size: f64,
+    /// Mean radiosity of the scene, W/m².
+    level: f64,
+}
+
+/// Errors of interpolation across an element, W/m².
+#[derive(Clone, Copy, Debug, Default)]
+struct Errors {
+    /// Largest at the midpoints of edges 0 and 2, then of edges 1 and 3 and all others.
+    edges: [f64; 2],
+    /// At the centre, from all corners.
+    centre: f64,
+    /// At the centre, from the midpoints of edges 0 and 2, and from those of edges 1 and 3.
+    across: [f64; 2],
+}
+
+impl Oracle {
+    /// An oracle for a scene of this extent, m, whose surfaces have this mean radiosity, W/m².
+    pub fn new(settings: &Settings, extent: f64, level: f64) -> Self {
+        Self {
+            tolerance: settings.tolerance,
+            min_element: settings.min_element.metres(extent),
+            max_level: settings.max_level,
+            plain_size: PLAIN_SIZE * extent,
+            level,
+        }
+    }
+
+    /// True if an element may be divided at all.
+    pub fn may_divide(&self, mesh: &Mesh, element: ElementId) -> bool {
+        let [width, height] = mesh.sides(element);
+        mesh[element].level < self.max_level && width.max(height) >= 2.0 * self.min_element
+    }
+
+    /// How to divide an element, by the `light` (W/m² of radiosity) known at its corners and middle, and by
+    /// the largest error found at `probes`; `None` if interpolation will do.
+    pub fn judge(
+        &self,
+        (mesh, element): (&Mesh, ElementId),
+        middle: &Middle,
+        light: impl Fn(&Vertex) -> Rgb,
+        probes: f64,
+    ) -> Option<Split> {
+        let corners: SmallVec<[Rgb; 4]> =
+            mesh[element].corners.iter().map(|&v| light(&mesh[v])).collect();
+        let errors = Errors::new(&corners, middle, |v| light(&mesh[v]));
+        let allowed = self.allowed(mesh, element, &corners);
+        if errors.largest().max(probes) <= allowed {
+            return None;
+        }
+        let round = mesh.round_split(element);
+        let halves = (probes <= allowed && corners.len() == 4)
+            .then(|| self.halving(mesh.sides(element), &errors, allowed))
+            .flatten();
+        Some(halves.unwrap_or(round))
+    }
+
+    /// The direction in which cutting a quadrilateral once is enough, if there is one.
+    fn halving(&self, sides: [f64; 2], errors: &Errors, allowed: f64) -> Option<Split> {
+        let leaves = |k: usize| errors.edges[1 - k].max(errors.across[k]);
+        let stays_round = |k: usize| sides[1 - k] <= SLENDER * sides[k] / 2.0;
+        let best = usize::from(leaves(1) < leaves(0));
+        (leaves(best) <= RESIDUE * allowed && stays_round(best)).then_some(Split::Halves(best))
+    }
+
+    /// The error that an element is allowed, W/m²: a share of the geometric mean of the radiosities
+    /// here and in the whole scene.
+    fn allowed(&self, mesh: &Mesh, element: ElementId, corners: &[Rgb]) -> f64 {
+        let here = corners.iter().map(|&c| strength(c)).sum::<f64>() / corners.len() as f64;
+        let around = (self.level * here.max(0.05 * self.level)).sqrt();
+        let size = mesh[element].area.sqrt();
+        self.tolerance * around * (self.plain_size / size).sqrt().clamp(0.5, 2.0)
+    }
+
+    /// Why an element is divided.
+    pub fn reason(&self, mesh: &Mesh, element: ElementId, middle: &Middle) -> Reason {
+        let places = || mesh[element].corners.iter().chain(&middle.edges).chain([&middle.centre]);
+        let seen = places().filter_map(|&v| mesh[v].direct).map(|d| d.visible());
+        let (low, high) = seen.fold((1.0, 0.0), |(l, h): (f64, f64), s| (l.min(s), h.max(s)));
+        if high - low > 1e-3 {
+            return Reason::ShadowEdge;
+        }
+        let touches = mesh[element].corners.iter().any(|&v| mesh[v].on_contact);
+        if touches { Reason::Contact } else { Reason::Gradient }
+    }
+}
+
+impl Errors {
+    fn new(corners: &[Rgb], middle: &Middle, light: impl Fn(crate::mesh::VertexId) -> Rgb) -> Self {
+        let n = corners.len();
+        let edges: SmallVec<[Rgb; 8]> = middle.edges.iter().map(|&v| light(v)).collect();
+        let centre = light(middle.centre);
+        let mut errors = Self {
+            centre: strength(centre - corners.iter().sum::<Rgb>() / n as f64),
+            ..Self::default()
+        };
+        for k in 0..n {
+            let error = strength(edges[k] - (corners[k] + corners[(k + 1) % n]) * 0.5);
+            let pair = usize::from(n != 4 || k % 2 == 1);
+            errors.edges[pair] = errors.edges[pair].max(error);
+        }
+        if n == 4 {
+            errors.across = [0, 1].map(|k| strength(centre - (edges[k] + edges[k + 2]) * 0.5));
+        }
+        errors
+    }
+
+    fn largest(&self) -> f64 {
+        self.edges[0].max(self.edges[1]).max(self.centre)
+    }
+}
+
+/// Mean magnitude of the channels.
+pub fn strength(colour: Rgb) -> f64 {
+    colour.abs().element_sum() / 3.0
+}

@@ -1,0 +1,130 @@
+//! Direct light at vertices, and the mesh refined until it can be interpolated.
+
+use std::ops::ControlFlow;
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::{Observer, Phase};
+use crate::colour::Rgb;
+use crate::direct::{Lamps, light_vertices};
+use crate::mesh::{Direct, ElementId, Mesh, Middle, Vertex, VertexId};
+use crate::refine::{Oracle, strength};
+use crate::settings::Settings;
+use crate::surface::Surfaces;
+use crate::visibility::Occluders;
+
+/// Probes along each axis of an element; together with edges and centre no gap is wider than a quarter of a side.
+const PROBES: usize = 4;
+
+/// What light meets on its way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct World<'a> {
+    pub(super) surfaces: &'a Surfaces,
+    pub(super) occluders: &'a Occluders,
+    pub(super) lamps: &'a Lamps,
+}
+
+/// Evaluates direct light at all vertices that lack it.
+pub(super) fn light(world: World<'_>, mesh: &mut Mesh) {
+    let dark: Vec<usize> =
+        (0..mesh.vertices.len()).filter(|&v| mesh.vertices[v].direct.is_none()).collect();
+    let vertices: Vec<&Vertex> = dark.iter().map(|&v| &mesh.vertices[v]).collect();
+    let lit = light_vertices(world.lamps, world.occluders, world.surfaces, &vertices);
+    for (vertex, direct) in dark.into_iter().zip(lit) {
+        mesh.vertices[vertex].direct = Some(direct);
+    }
+}
+
+/// Refines the mesh until direct light can be interpolated, and returns the oracle that judged it.
+pub(super) fn refine(
+    world: World<'_>,
+    settings: &Settings,
+    mesh: &mut Mesh,
+    observer: &mut Observer<'_>,
+) -> ControlFlow<()> {
+    light(world, mesh);
+    let oracle = Oracle::new(settings, world.surfaces.extent, mean_radiosity(mesh));
+    let mut candidates: Vec<ElementId> = mesh.leaves().collect();
+    for level in 0..settings.max_level {
+        observer.tell(Phase::Direct, f64::from(level) / f64::from(settings.max_level))?;
+        candidates.retain(|&e| oracle.may_divide(mesh, e) && reflects(mesh, e));
+        let middles: Vec<Middle> = candidates.iter().map(|&e| mesh.middle(e)).collect();
+        light(world, mesh);
+        let judged = candidates.par_iter().zip(&middles);
+        let verdicts: Vec<_> =
+            judged.map(|(&e, middle)| judge(world, mesh, &oracle, e, middle)).collect();
+
+        let mut next = Vec::new();
+        for ((&element, middle), verdict) in candidates.iter().zip(&middles).zip(verdicts) {
+            if let Some(split) = verdict {
+                mesh.split(element, split, oracle.reason(mesh, element, middle));
+                next.extend_from_slice(&mesh[element].children);
+            }
+        }
+        candidates = next;
+    }
+    ControlFlow::Continue(())
+}
+
+/// Black surfaces show no light, so nothing is gained by dividing them.
+pub(super) fn reflects(mesh: &Mesh, element: ElementId) -> bool {
+    mesh[mesh[element].patch].reflectance.max_element() > 0.0
+}
+
+/// Estimate of the mean radiosity of the scene's surfaces, W/m², from the direct light at patch corners.
+///
+/// Interreflection is taken as in a closed room: 1 / (1 - mean reflectance) times the direct light.
+pub(super) fn mean_radiosity(mesh: &Mesh) -> f64 {
+    let (mut area, mut reflected, mut reflectance) = (0.0, 0.0, 0.0);
+    for patch in &mesh.patches {
+        let corners = &mesh[patch.root].corners;
+        let light: Rgb = corners.iter().filter_map(|&v| mesh[v].direct).map(|d| d.irradiance).sum();
+        reflected += strength(patch.reflectance * light) / corners.len() as f64 * patch.area;
+        reflectance += strength(patch.reflectance) * patch.area;
+        area += patch.area;
+    }
+    reflected / (area - reflectance).max(f64::MIN_POSITIVE)
+}
+
+fn judge(
+    world: World<'_>,
+    mesh: &Mesh,
+    oracle: &Oracle,
+    element: ElementId,
+    middle: &Middle,
+) -> Option<crate::mesh::Split> {
+    let reflectance = mesh[mesh[element].patch].reflectance;
+    let irradiance = |v: VertexId| mesh[v].direct.unwrap_or_default().irradiance;
+    let light = |vertex: &Vertex| reflectance * vertex.direct.unwrap_or_default().irradiance;
+    let corners: Vec<(DVec2, Rgb)> =
+        mesh[element].corners.iter().map(|&v| (mesh[v].position, irradiance(v))).collect();
+    let surface = &world.surfaces.list[mesh.surface_of(element)];
+    let probe_error = |(position, expected): (DVec2, Rgb)| {
+        let place = surface.plane.lift(position);
+        let Direct { irradiance, .. } =
+            world.lamps.shine(world.occluders, place, surface.plane.normal);
+        strength(reflectance * (irradiance - expected))
+    };
+    let probes = probes(&corners).into_iter().map(probe_error).fold(0.0, f64::max);
+    oracle.judge((mesh, element), middle, light, probes)
+}
+
+/// Places inside a quadrilateral or triangle off its midlines, with interpolated values.
+fn probes(corners: &[(DVec2, Rgb)]) -> Vec<(DVec2, Rgb)> {
+    let at = |k: usize| (k as f64 + 0.5) / PROBES as f64;
+    let grid = (0..PROBES).flat_map(|i| (0..PROBES).map(move |j| (at(i), at(j))));
+    let blend = |weights: &[f64]| {
+        let sum = |(p, l): (DVec2, Rgb), ((position, light), w): (&(DVec2, Rgb), &f64)| {
+            (p + *position * *w, l + *light * *w)
+        };
+        corners.iter().zip(weights).fold((DVec2::ZERO, Rgb::ZERO), sum)
+    };
+    match corners.len() {
+        3 => grid.filter(|(s, t)| s + t < 1.0).map(|(s, t)| blend(&[1.0 - s - t, s, t])).collect(),
+        4 => grid
+            .map(|(s, t)| blend(&[(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t]))
+            .collect(),
+        _ => Vec::new(),
+    }
+}

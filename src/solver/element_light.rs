@@ -1,0 +1,83 @@
+//! Light on elements, constant over each, at all levels of the trees.
+
+use crate::colour::Rgb;
+use crate::mesh::{ElementId, Mesh};
+use crate::refine::strength;
+
+/// Light on every element of a mesh; all lists are one entry per element.
+#[derive(Clone, Debug, Default)]
+pub struct ElementLight {
+    /// Mean irradiance straight from emitters, W/m².
+    pub direct: Vec<Rgb>,
+    /// Mean irradiance by reflected light, W/m².
+    pub indirect: Vec<Rgb>,
+    /// Mean reflected radiosity, W/m²; emission is not part of it.
+    pub reflected: Vec<Rgb>,
+    /// How far the reflected radiosities of an element's parts are from its own, W/m².
+    pub spread: Vec<f64>,
+}
+
+impl ElementLight {
+    /// Direct light alone, from the vertices.
+    pub fn direct(mesh: &Mesh) -> Self {
+        let leaf = |element| mean_direct(mesh, element);
+        let direct = pull(mesh, leaf);
+        Self { indirect: vec![Rgb::ZERO; direct.len()], direct, ..Self::default() }
+    }
+
+    /// Settles the light received at all levels, so that every element has its mean.
+    pub fn settle(&mut self, mesh: &Mesh, received: &[Rgb]) {
+        let mut sum = received.to_vec();
+        for (index, element) in mesh.elements.iter().enumerate() {
+            for child in &element.children {
+                let above = sum[index];
+                sum[child.index()] += above;
+            }
+        }
+        self.indirect = pull(mesh, |element| sum[element.index()]);
+        let reflected = |(index, element): (usize, &crate::mesh::Element)| {
+            mesh[element.patch].reflectance * (self.direct[index] + self.indirect[index])
+        };
+        self.reflected = mesh.elements.iter().enumerate().map(reflected).collect();
+        self.spread = vec![0.0; self.reflected.len()];
+        for (index, element) in mesh.elements.iter().enumerate().rev() {
+            let differs = |child: &ElementId| {
+                let difference = self.reflected[child.index()] - self.reflected[index];
+                strength(difference) + self.spread[child.index()]
+            };
+            self.spread[index] = element.children.iter().map(differs).fold(0.0, f64::max);
+        }
+    }
+}
+
+/// Values of all elements from those of the leaves: a parent has the mean of its children by area.
+fn pull(mesh: &Mesh, leaf: impl Fn(ElementId) -> Rgb) -> Vec<Rgb> {
+    let mut values = vec![Rgb::ZERO; mesh.elements.len()];
+    for (index, element) in mesh.elements.iter().enumerate().rev() {
+        values[index] = if element.is_leaf() {
+            leaf(ElementId(index as u32))
+        } else {
+            let part =
+                |child: &ElementId| values[child.index()] * (mesh[*child].area / element.area);
+            element.children.iter().map(part).sum()
+        };
+    }
+    values
+}
+
+/// Mean direct irradiance of a leaf: by Simpson's rule where it was judged, from its corners elsewhere.
+fn mean_direct(mesh: &Mesh, element: ElementId) -> Rgb {
+    let at = |v: crate::mesh::VertexId| mesh[v].direct.unwrap_or_default().irradiance;
+    let corners = &mesh[element].corners;
+    let mean = |values: &[crate::mesh::VertexId]| {
+        values.iter().map(|&v| at(v)).sum::<Rgb>() / values.len() as f64
+    };
+    match mesh.find_middle(element) {
+        Some(middle) if corners.len() == 4 => {
+            (mean(corners) + mean(&middle.edges) * 4.0 + at(middle.centre) * 4.0) / 9.0
+        }
+        // The rule of degree two on triangles; on other polygons the same blend is no worse than the corners.
+        Some(middle) => mean(&middle.edges),
+        None => mean(corners),
+    }
+}

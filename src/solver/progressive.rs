@@ -1,0 +1,193 @@
+//! Progressive refinement: shoot from the patch with the most unshot power, until little is left.
+//!
+//! Based on: [Cohen, Chen, Wallace and Greenberg 1988]. It is Southwell's relaxation of B = E + ρ F B.
+//! Emitters come first; their light has been carried exactly before, so their shots only book it.
+//!
+//! [Cohen, Chen, Wallace and Greenberg 1988]: https://doi.org/10.1145/54852.378487
+
+use rayon::prelude::*;
+
+use super::energy::Energy;
+use super::transport::{Row, row};
+use super::{ElementLight, Observer, Phase, Stop};
+use crate::colour::Rgb;
+use crate::form_factor::hemicube::{DeltaFactors, Hemicube};
+use crate::mesh::{Mesh, PatchId};
+use crate::settings::Settings;
+use crate::surface::Surfaces;
+
+/// Rows computed at once, ahead of their shots. A number of its own, so that threads change nothing.
+const BATCH: usize = 16;
+
+/// Entries of rows kept for later shots; beyond them, rows are made anew.
+const KEPT_ENTRIES: usize = 8_000_000;
+
+/// The state of a solution by shooting.
+pub(super) struct Shooting<'a> {
+    mesh: &'a Mesh,
+    surfaces: &'a Surfaces,
+    delta: DeltaFactors,
+    rows: Vec<Option<Row>>,
+    kept: usize,
+    /// By patch: radiosity received and not yet shot, W/m².
+    unshot: Vec<Rgb>,
+    /// By element: irradiance by reflected light received at that level, W/m².
+    pub(super) received: Vec<Rgb>,
+    pub(super) energy: Energy,
+    pub(super) shots: usize,
+    /// Hemicubes looked through.
+    pub(super) hemicubes: usize,
+}
+
+impl<'a> Shooting<'a> {
+    /// Books the direct light: emitters have shot, patches hold what they reflect of it.
+    pub(super) fn new(
+        mesh: &'a Mesh,
+        surfaces: &'a Surfaces,
+        settings: &Settings,
+        light: &ElementLight,
+    ) -> Self {
+        let direct = |patch: &crate::mesh::Patch| light.direct[patch.root.index()];
+        let mut shooting = Self {
+            mesh,
+            surfaces,
+            delta: DeltaFactors::new(settings.hemicube_resolution as usize),
+            rows: vec![None; mesh.patches.len()],
+            kept: 0,
+            unshot: mesh.patches.iter().map(|patch| patch.reflectance * direct(patch)).collect(),
+            received: vec![Rgb::ZERO; mesh.elements.len()],
+            energy: Energy::default(),
+            shots: 0,
+            hemicubes: 0,
+        };
+        let mut arrived = Rgb::ZERO;
+        for patch in &mesh.patches {
+            let received = direct(patch) * patch.area;
+            arrived += received;
+            shooting.energy.absorbed += (Rgb::ONE - patch.reflectance) * received;
+        }
+        shooting.book_emitters(arrived);
+        shooting.energy.unshot = shooting.unshot_power();
+        shooting
+    }
+
+    /// What emitters send past all fronts; lights without a surface emit what arrives of them.
+    fn book_emitters(&mut self, arrived: Rgb) {
+        let emitters = self.mesh.patches.iter().enumerate();
+        let emitters: Vec<PatchId> = emitters
+            .filter(|(_, patch)| patch.exitance.max_element() > 0.0)
+            .map(|(index, _)| PatchId(index as u32))
+            .collect();
+        self.prepare(&emitters);
+        for &emitter in &emitters {
+            let power = self.mesh[emitter].exitance * self.mesh[emitter].area;
+            let row = self.rows[emitter.index()].take().unwrap_or_default();
+            self.energy.emitted += power;
+            self.energy.escaped += power * row.escaped;
+            self.energy.on_backs += power * row.on_backs;
+        }
+        self.kept = 0;
+        self.shots = emitters.len();
+        if !self.surfaces.lights.is_empty() {
+            let elsewhere = self.energy.escaped + self.energy.on_backs;
+            self.energy.emitted = self.energy.emitted.max(arrived + elsewhere);
+        }
+    }
+
+    /// Shoots until the unshot power is small, the shots are used up, or `observer` has seen enough.
+    pub(super) fn run(&mut self, settings: &Settings, observer: &mut Observer<'_>) -> Stop {
+        let start = self.energy.unshot_share().max(f64::MIN_POSITIVE);
+        loop {
+            let left = self.energy.unshot_share();
+            if left <= settings.stop {
+                return Stop::Converged;
+            }
+            if settings.max_shots.is_some_and(|most| self.shots >= most) {
+                return Stop::ShotLimit;
+            }
+            let done = (left / start).ln() / (settings.stop / start).ln();
+            if observer.tell(Phase::Shooting, done).is_break() {
+                return Stop::Cancelled;
+            }
+            let shooter = self.brightest(1)[0];
+            if self.rows[shooter.index()].is_none() {
+                let ahead = self.brightest(BATCH);
+                self.prepare(&ahead);
+            }
+            self.shoot(shooter);
+        }
+    }
+
+    /// Sends the unshot light of a patch to all elements it sees.
+    fn shoot(&mut self, shooter: PatchId) {
+        let radiosity = std::mem::take(&mut self.unshot[shooter.index()]);
+        let row = self.rows[shooter.index()].take().unwrap_or_default();
+        let mut absorbed = Rgb::ZERO;
+        for &(element, exchange) in &row.entries {
+            let receiver = self.mesh[element].patch;
+            let patch = &self.mesh[receiver];
+            let power = radiosity * exchange;
+            self.received[element.index()] += power / self.mesh[element].area;
+            self.unshot[receiver.index()] += patch.reflectance * power / patch.area;
+            absorbed += (Rgb::ONE - patch.reflectance) * power;
+        }
+        let power = radiosity * self.mesh[shooter].area;
+        self.energy.absorbed += absorbed;
+        self.energy.escaped += power * row.escaped;
+        self.energy.on_backs += power * row.on_backs;
+        self.energy.unshot = self.unshot_power();
+        self.rows[shooter.index()] = Some(row);
+        self.shots += 1;
+    }
+
+    /// Computes the rows that are missing of some patches.
+    fn prepare(&mut self, patches: &[PatchId]) {
+        if self.kept > KEPT_ENTRIES {
+            self.rows.fill(None);
+            self.kept = 0;
+        }
+        let missing: Vec<PatchId> =
+            patches.iter().copied().filter(|patch| self.rows[patch.index()].is_none()).collect();
+        let (mesh, surfaces, delta) = (self.mesh, self.surfaces, &self.delta);
+        let rows: Vec<Row> = missing
+            .par_iter()
+            .map_init(
+                || Hemicube::new(delta),
+                |hemicube, &patch| row(mesh, surfaces, hemicube, patch),
+            )
+            .collect();
+        self.hemicubes += rows.len();
+        for (patch, row) in missing.into_iter().zip(rows) {
+            self.kept += row.entries.len();
+            self.rows[patch.index()] = Some(row);
+        }
+    }
+
+    /// The patches with the most unshot power, the most first; equals in their order.
+    fn brightest(&self, count: usize) -> Vec<PatchId> {
+        let power =
+            |index: &usize| self.unshot[*index].element_sum() * self.mesh.patches[*index].area;
+        let by_power = |a: &usize, b: &usize| power(b).total_cmp(&power(a)).then(a.cmp(b));
+        let mut order: Vec<usize> = (0..self.unshot.len()).collect();
+        let count = count.min(order.len());
+        order.select_nth_unstable_by(count - 1, by_power);
+        order.truncate(count);
+        order.sort_by(by_power);
+        order.into_iter().map(|index| PatchId(index as u32)).collect()
+    }
+
+    fn unshot_power(&self) -> Rgb {
+        self.mesh.patches.iter().zip(&self.unshot).map(|(patch, &unshot)| unshot * patch.area).sum()
+    }
+
+    /// Estimate of the irradiance that the unshot light will give rise to, the same everywhere, W/m².
+    ///
+    /// The mean unshot radiosity times 1 / (1 - mean reflectance), as in Cohen et al. 1988: exact for
+    /// a closed room that is all alike.
+    pub(super) fn ambient(&self) -> Rgb {
+        let area: f64 = self.mesh.patches.iter().map(|patch| patch.area).sum();
+        let reflectance: Rgb =
+            self.mesh.patches.iter().map(|patch| patch.reflectance * (patch.area / area)).sum();
+        self.unshot_power() / area / (Rgb::ONE - reflectance)
+    }
+}

@@ -1,0 +1,49 @@
+//! Convex polygons in space, and cutting them by a plane.
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
+/// A convex planar polygon in space.
+pub type Polygon = SmallVec<[DVec3; 8]>;
+
+/// The half space in front of a plane.
+#[derive(Clone, Copy, Debug)]
+pub struct HalfSpace {
+    /// Unit normal, into the half space.
+    pub normal: DVec3,
+    /// Distance of its border from the origin along the normal, m.
+    pub offset: f64,
+}
+
+impl HalfSpace {
+    /// The half space with unit `normal` and `point` on its border.
+    pub fn new(point: DVec3, normal: DVec3) -> Self {
+        Self { normal, offset: point.dot(normal) }
+    }
+
+    /// Distance of a point from the border, m; positive inside.
+    pub fn depth(&self, point: DVec3) -> f64 {
+        point.dot(self.normal) - self.offset
+    }
+
+    /// The other side.
+    pub fn complement(&self) -> Self {
+        Self { normal: -self.normal, offset: -self.offset }
+    }
+
+    /// The part of a polygon inside, empty if there is none.
+    pub fn clip(&self, polygon: &[DVec3]) -> Polygon {
+        let mut inside = Polygon::new();
+        for (k, &corner) in polygon.iter().enumerate() {
+            let next = polygon[(k + 1) % polygon.len()];
+            let (from, to) = (self.depth(corner), self.depth(next));
+            if from >= 0.0 {
+                inside.push(corner);
+            }
+            if from * to < 0.0 {
+                inside.push(corner.lerp(next, from / (from - to)));
+            }
+        }
+        if inside.len() < 3 { Polygon::new() } else { inside }
+    }
+}

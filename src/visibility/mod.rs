@@ -1,0 +1,158 @@
+//! What stands between two places: segment and shaft queries on a bounding volume hierarchy.
+
+mod clip;
+mod shaft;
+
+use std::time::Duration;
+
+use glam::{DVec3, Vec3A};
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2;
+use obvhs::ray::Ray;
+use obvhs::{Boundable, BvhBuildParams};
+use smallvec::SmallVec;
+
+use crate::surface::Surfaces;
+use crate::surface::cut::{Cuts, convex_pieces};
+
+pub use clip::{HalfSpace, Polygon};
+pub use shaft::Pieces;
+
+/// All that blocks light: convex pieces of the surfaces, from both sides.
+#[derive(Clone)]
+pub struct Occluders {
+    /// In the order of the hierarchy's leaves.
+    polygons: Vec<Occluder>,
+    bvh: Bvh2,
+    /// Near the middle of the scene, m: the hierarchy works in 32 bits.
+    centre: DVec3,
+    extent: f64,
+    tolerance: f64,
+}
+
+/// A convex piece of a surface.
+#[derive(Clone, Debug)]
+struct Occluder {
+    corners: Polygon,
+    plane: HalfSpace,
+}
+
+/// An occluder's box, grown so that rounding to 32 bits loses nothing.
+struct Bounds(Aabb);
+
+impl Boundable for Bounds {
+    fn aabb(&self) -> Aabb {
+        self.0
+    }
+}
+
+impl std::fmt::Debug for Occluders {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Occluders").field("polygons", &self.polygons.len()).finish_non_exhaustive()
+    }
+}
+
+impl Occluders {
+    /// The occluders of a scene.
+    pub fn new(surfaces: &Surfaces) -> Self {
+        let polygons: Vec<Occluder> = polygons(surfaces).collect();
+        let corners = || polygons.iter().flat_map(|p| p.corners.iter().copied());
+        let low = corners().fold(DVec3::INFINITY, DVec3::min);
+        let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let centre = if low.is_finite() { low.midpoint(high) } else { DVec3::ZERO };
+        let margin = Vec3A::splat((surfaces.tolerance * 5.0) as f32);
+        let boxes: Vec<Bounds> = polygons
+            .iter()
+            .map(|polygon| {
+                let at = polygon.corners.iter().map(|&p| (p - centre).as_vec3a());
+                let tight = Aabb::from_points(&at.collect::<SmallVec<[Vec3A; 8]>>());
+                Bounds(Aabb::new(tight.min - margin, tight.max + margin))
+            })
+            .collect();
+        // Ties on regular meshes degrade the faster presets; this one repairs its tree.
+        let bvh =
+            build_bvh2(&boxes, BvhBuildParams::very_slow_build(), &mut Duration::ZERO.clone());
+        let ordered = bvh.primitive_indices.iter().map(|&k| polygons[k as usize].clone()).collect();
+        Self {
+            polygons: ordered,
+            bvh,
+            centre,
+            extent: surfaces.extent,
+            tolerance: surfaces.tolerance,
+        }
+    }
+
+    /// A distance from within the scene to beyond all of it, m.
+    pub fn extent(&self) -> f64 {
+        2.0 * self.extent
+    }
+
+    /// True if an occluder crosses the segment from `a` to `b`, its ends left out.
+    pub fn blocks(&self, a: DVec3, b: DVec3) -> bool {
+        if self.polygons.is_empty() {
+            return false;
+        }
+        let (from, to) = ((a - self.centre).as_vec3a(), (b - self.centre).as_vec3a());
+        let ray = Ray::new(from, to - from, 0.0, 1.0);
+        !self.bvh.ray_traverse_miss(ray, |_, slot| {
+            if self.polygons[slot].crosses(a, b, self.tolerance) { 0.5 } else { f32::INFINITY }
+        })
+    }
+
+    /// Calls `visit` for the occluders in boxes that `enter` lets in, until it returns false.
+    fn for_each(
+        &self,
+        mut enter: impl FnMut(DVec3, DVec3) -> bool,
+        mut visit: impl FnMut(&Occluder) -> bool,
+    ) {
+        let mut stack: SmallVec<[u32; 64]> = SmallVec::new();
+        if !self.polygons.is_empty() {
+            stack.push(0);
+        }
+        while let Some(index) = stack.pop() {
+            let node = &self.bvh.nodes[index as usize];
+            let (low, high) = (node.aabb().min, node.aabb().max);
+            if !enter(low.as_dvec3() + self.centre, high.as_dvec3() + self.centre) {
+                continue;
+            }
+            if !node.is_leaf() {
+                stack.extend([node.first_index + 1, node.first_index]);
+                continue;
+            }
+            let first = node.first_index as usize;
+            for occluder in &self.polygons[first..first + node.prim_count as usize] {
+                if !visit(occluder) {
+                    return;
+                }
+            }
+        }
+    }
+}
+
+impl Occluder {
+    /// True if the segment passes from one side to the other, through the polygon or its border.
+    fn crosses(&self, a: DVec3, b: DVec3, tolerance: f64) -> bool {
+        let (from, to) = (self.plane.depth(a), self.plane.depth(b));
+        if from.abs() <= tolerance || to.abs() <= tolerance || from * to > 0.0 {
+            return false;
+        }
+        let at = a.lerp(b, from / (from - to));
+        (0..self.corners.len()).all(|k| {
+            let (p, q) = (self.corners[k], self.corners[(k + 1) % self.corners.len()]);
+            (q - p).cross(at - p).dot(self.plane.normal) >= -tolerance * (q - p).length()
+        })
+    }
+}
+
+/// Convex pieces of all surfaces, each double-sided polygon once.
+fn polygons(surfaces: &Surfaces) -> impl Iterator<Item = Occluder> + '_ {
+    let fronts = surfaces.list.iter().filter(|surface| !surface.is_back);
+    fronts.flat_map(|surface| {
+        let cuts = Cuts { segments: &[], size: f64::INFINITY, tolerance: surfaces.tolerance };
+        convex_pieces(&surface.rings, &cuts).into_iter().map(|piece| Occluder {
+            corners: piece.iter().map(|&p| surface.plane.lift(p)).collect(),
+            plane: HalfSpace::new(surface.plane.origin, surface.plane.normal),
+        })
+    })
+}
