@@ -1,6 +1,6 @@
 //! Adaptive radiosity: a scene of diffuse surfaces in, a crack-free mesh that carries its light out.
 //!
-//! scene → surface → mesh → visibility → form_factor → refine → solver → reconstruct → export, render
+//! scene → surface → mesh → visibility → `form_factor` → refine → solver → reconstruct → tone → export, render
 //!
 //! Data moves left to right. A module may use those to its left, never those to its right.
 //!
@@ -28,6 +28,8 @@ pub mod refine;
 pub mod solver;
 
 pub mod reconstruct;
+
+pub mod tone;
 
 pub use error::{Error, Result};
 pub use reconstruct::{TriMesh, reconstruct};
