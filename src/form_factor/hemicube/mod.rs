@@ -139,13 +139,14 @@ impl<'a> Hemicube<'a> {
             drawn = true;
             for (row, columns) in footprint.rows(resolution) {
                 covered += delta.sum(row, columns.clone());
-                let mut nearness = footprint.nearness(row, columns.start);
+                let [first, step] = footprint.nearness(row, columns.start);
                 let cells = row * resolution + columns.start..row * resolution + columns.end;
-                for (depth, item) in depths[cells.clone()].iter_mut().zip(&mut items[cells]) {
+                let cells = depths[cells.clone()].iter_mut().zip(&mut items[cells]);
+                for (column, (depth, item)) in cells.enumerate() {
+                    let nearness = first + step * column as f32;
                     let nearer = nearness > *depth;
                     *depth = if nearer { nearness } else { *depth };
                     *item = if nearer { index } else { *item };
-                    nearness += footprint.depth[1];
                 }
             }
         });
@@ -166,13 +167,13 @@ impl<'a> Hemicube<'a> {
     fn glimpse(&self, patch: &Patch) -> f64 {
         let middle = patch.corners.iter().sum::<DVec3>() / patch.corners.len() as f64;
         let local = self.frame * (middle - self.eye);
-        let depth = local.abs().max_element();
-        let clear = |cell| self.depth[cell] * depth as f32 <= 1.0 + 1e-3;
+        let depth = local.abs().max_element() as f32;
+        let clear = |cell: usize| self.depth[cell] * depth <= 1.0 + 1e-3;
         f64::from(u8::from(self.cell(middle).is_some_and(clear)))
     }
 
     fn cell(&self, point: DVec3) -> Option<usize> {
-        let (row, column) = self.raster.cell(self.frame * (point - self.eye))?;
+        let (row, column) = self.raster.cell((self.frame * (point - self.eye)).as_vec3())?;
         Some(row * self.delta.resolution() + column)
     }
 }
@@ -189,10 +190,10 @@ impl Footprint<'_> {
         })
     }
 
-    /// Reciprocal depth at a cell's centre.
-    fn nearness(&self, row: usize, column: usize) -> f32 {
+    /// Reciprocal depth at a cell's centre, and what it grows by from column to column.
+    fn nearness(&self, row: usize, column: usize) -> [f32; 2] {
         let [origin, by_column, by_row] = self.depth;
-        origin + by_column * column as f32 + by_row * (row - self.first_row) as f32
+        [origin + by_column * column as f32 + by_row * (row - self.first_row) as f32, by_column]
     }
 }
 
