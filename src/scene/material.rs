@@ -2,6 +2,9 @@
 
 use crate::colour::Rgb;
 
+/// Largest reflectance a scene may hold in a channel: at 1, light in a closed room would never die out.
+pub const MAX_REFLECTANCE: f64 = 0.99;
+
 /// A diffuse material.
 #[derive(Clone, Debug)]
 pub struct Material {
