@@ -5,9 +5,10 @@
 
 use std::collections::{HashMap, HashSet};
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
+use super::corners::{settle_normals, settle_uvs};
 use super::notes::note_count;
 use super::polygon::{
     area_vector, bulge, flattened, is_affine, is_simple, longest_edge, triangulate,
@@ -20,12 +21,6 @@ const MIN_AREA: f64 = 1e-12;
 /// Corners further from the face's plane, as a share of its longest edge, make it non-planar.
 const MAX_BULGE: f64 = 1e-6;
 
-/// Cosine of 0.1°: normals within that angle of the face's own say nothing.
-const SAME_DIRECTION: f64 = 0.999_998_476_9;
-
-/// Texture coordinates beyond this have no digits left for a place in the picture.
-const MAX_UV: f64 = 1e6;
-
 /// Repairs `scene` and notes what was done.
 pub(crate) fn clean(scene: &mut Scene) {
     weld(scene);
@@ -37,7 +32,8 @@ pub(crate) fn clean(scene: &mut Scene) {
     forget_unused_positions(scene);
 }
 
-fn corners(positions: &[DVec3], face: &Face) -> SmallVec<[DVec3; 4]> {
+/// Where the face's corners are, m.
+pub(crate) fn corners(positions: &[DVec3], face: &Face) -> SmallVec<[DVec3; 4]> {
     face.vertices.iter().map(|&vertex| positions[vertex as usize]).collect()
 }
 
@@ -98,28 +94,6 @@ fn part(face: &Face, corners: &[usize]) -> Face {
         uvs: corners.iter().filter_map(|&corner| face.uvs.get(corner).copied()).collect(),
         ..*face
     }
-}
-
-/// Keeps texture coordinates only where a picture needs them and they are usable.
-fn settle_uvs(scene: &mut Scene) {
-    let mut unusable = 0;
-    for face in &mut scene.faces {
-        let material = &scene.materials[face.material as usize];
-        if material.texture.is_none() && material.emission_texture.is_none() {
-            face.uvs.clear();
-        }
-        // Written so that undefined coordinates fail too.
-        if !face.uvs.iter().all(|uv| uv.abs().max_element() <= MAX_UV) {
-            face.uvs.clear();
-            unusable += 1;
-        }
-    }
-    note_count(
-        &mut scene.notes,
-        unusable,
-        "face",
-        "with unusable texture coordinates left untextured",
-    );
 }
 
 #[derive(PartialEq)]
@@ -189,33 +163,6 @@ fn drop_duplicates(scene: &mut Scene) {
     note_count(&mut scene.notes, dropped, "duplicate face", "dropped");
 }
 
-/// Keeps unit normals only where they differ from the face's own and do not contradict it.
-fn settle_normals(scene: &mut Scene) {
-    let mut contradicting = 0;
-    for face in &mut scene.faces {
-        if face.normals.is_empty() {
-            continue;
-        }
-        let own = area_vector(&corners(&scene.positions, face)).normalize_or_zero();
-        let unit: SmallVec<[DVec3; 4]> =
-            face.normals.iter().map(|normal| normal.as_dvec3().normalize_or_zero()).collect();
-        let degenerate = unit.contains(&DVec3::ZERO);
-        let backward = unit.iter().any(|normal| normal.dot(own) <= 0.0);
-        let flat = unit.iter().all(|normal| normal.dot(own) > SAME_DIRECTION);
-        contradicting += usize::from(backward && !degenerate);
-        face.normals.clear();
-        if !(degenerate || backward || flat) {
-            face.normals.extend(unit.iter().map(|normal| -> Vec3 { normal.as_vec3().normalize() }));
-        }
-    }
-    note_count(
-        &mut scene.notes,
-        contradicting,
-        "face",
-        "with vertex normals against the order of its corners, taken as flat",
-    );
-}
-
 fn forget_unused_positions(scene: &mut Scene) {
     let mut index_of = vec![None; scene.positions.len()];
     let mut kept = Vec::new();
@@ -233,7 +180,6 @@ fn forget_unused_positions(scene: &mut Scene) {
 mod tests {
     use super::*;
     use crate::scene::Material;
-    use smallvec::smallvec;
 
     fn cleaned(positions: &[[f64; 3]], faces: &[&[u32]]) -> Scene {
         let face = |vertices: &&[u32]| Face { vertices: (*vertices).into(), ..Face::default() };
@@ -284,29 +230,5 @@ mod tests {
         bent[2][2] = 1e-3;
         assert_eq!(cleaned(&bent, &[&[0, 1, 2, 3]]).faces.len(), 2);
         assert_eq!(cleaned(&SQUARE, &[&[0, 1, 2, 3]]).faces.len(), 1);
-    }
-
-    #[test]
-    fn normals_stay_only_where_they_say_something() {
-        let tilted = Vec3::new(0.1, 0.0, 1.0);
-        let normals_of = |normals: [Vec3; 3]| {
-            let mut scene = Scene {
-                positions: SQUARE.iter().map(|&p| p.into()).collect(),
-                faces: vec![Face {
-                    vertices: smallvec![0, 1, 2],
-                    normals: normals.as_slice().into(),
-                    ..Face::default()
-                }],
-                materials: vec![Material::default()],
-                ..Scene::default()
-            };
-            clean(&mut scene);
-            scene.faces[0].normals.clone()
-        };
-        assert!(normals_of([Vec3::Z, 2.0 * Vec3::Z, Vec3::Z]).is_empty());
-        assert!(normals_of([tilted, Vec3::ZERO, Vec3::Z]).is_empty());
-        assert!(normals_of([tilted, -tilted, Vec3::Z]).is_empty());
-        let kept = normals_of([tilted, Vec3::Z, 3.0 * tilted]);
-        assert!(kept.len() == 3 && kept.iter().all(|n| n.is_normalized()), "{kept:?}");
     }
 }

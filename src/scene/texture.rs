@@ -48,6 +48,12 @@ pub(crate) fn attach_pictures(
     emission: Option<Picture>,
 ) -> UvMapping {
     material.texture = reflectance.map(|picture| picture.texture);
+    if let Some(picture) = reflectance {
+        // Only floating-point pictures hold more, and nothing reflects more than it receives.
+        for channel in scene.textures[picture.texture as usize].texels.iter_mut().flatten() {
+            *channel = channel.min(1.0);
+        }
+    }
     let mapping = reflectance.or(emission).map(|picture| picture.mapping).unwrap_or_default();
     if let Some(glow) = emission {
         if glow.mapping == mapping {
@@ -160,6 +166,24 @@ mod tests {
         assert_eq!(texture.mime_type, "image/png");
         let again = decode("t", &texture.encoded, [true; 2]).unwrap();
         assert!((again.texels[0][0] - 0.5).abs() < 0.01, "{:?}", again.texels);
+    }
+
+    #[test]
+    fn an_emission_picture_laid_on_differently_becomes_its_mean() {
+        let texture = |texels: Vec<[f32; 3]>| Texture { texels, ..Texture::default() };
+        let mut scene = Scene {
+            textures: vec![texture(vec![[3.0, 0.5, 0.0]]), texture(vec![[1.0; 3], [0.0; 3]])],
+            ..Scene::default()
+        };
+        let mut material = Material { emission: Rgb::splat(4.0), ..Material::default() };
+        let picture = |texture, set| {
+            Some(Picture { texture, mapping: UvMapping { set, ..UvMapping::default() } })
+        };
+        let mapping = attach_pictures(&mut scene, &mut material, picture(0, 0), picture(1, 1));
+        assert_eq!((mapping.set, material.texture, material.emission_texture), (0, Some(0), None));
+        assert_eq!(material.emission, Rgb::splat(2.0));
+        assert_eq!(scene.textures[0].texels, [[1.0, 0.5, 0.0]]);
+        assert_eq!(scene.notes.len(), 1);
     }
 
     #[test]

@@ -126,8 +126,10 @@ impl File {
 fn parse(path: &Path, bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>)> {
     if !bytes.starts_with(b"glTF") {
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        let wrong = |error: json::Error| {
-            Error::at_line(path, error.line(), format!("not valid glTF: {error}"))
+        let wrong = |error: json::Error| Error::Format {
+            path: path.to_owned(),
+            line: Some(error.line()).filter(|&line| line > 0),
+            message: format!("not valid glTF: {error}"),
         };
         return Ok((Root::from_slice(text).map_err(wrong)?, None));
     }

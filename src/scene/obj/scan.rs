@@ -1,6 +1,7 @@
 //! A first pass over an OBJ file: finds errors with their lines, and what the parser leaves out.
 
 use std::fmt::Write;
+use std::iter::repeat;
 use std::path::Path;
 
 use super::text::{keyword, lines, numbers, words};
@@ -128,15 +129,13 @@ impl Scan {
             ));
         }
         self.emit(kind, word, rest, kept);
-        if values.len() < kept {
-            self.data.insert_str(self.data.len() - 1, " 0");
-        }
         Ok(())
     }
 
+    /// Writes the first `kept` numbers of `rest`, missing ones as 0.
     fn emit(&mut self, kind: usize, word: &str, rest: &str, kept: usize) {
         self.data.push_str(word);
-        for number in words(rest).take(kept) {
+        for number in words(rest).chain(repeat("0")).take(kept) {
             self.data.push(' ');
             self.data.push_str(number);
         }
