@@ -17,6 +17,12 @@ use crate::surface::polygon::centroid;
 /// Elements nearer to each other than this many of their sizes exchange light by their parts.
 const NEAR: f64 = 2.0;
 
+/// What is nearer to an element's centre than this share of its size is too close for the centre to see for all of it.
+const CLOSE: f64 = 0.4;
+
+/// An element looks by its parts if more than this share of its view is close.
+const CLOSE_SHARE: f64 = 0.05;
+
 /// Where the light of one patch goes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Row {
@@ -37,6 +43,8 @@ pub(super) struct Link {
 }
 
 /// The row of one patch.
+///
+/// Where something is so close that the patch's centre cannot see for all of it, its parts look for themselves.
 pub(super) fn row(
     mesh: &Mesh,
     surfaces: &Surfaces,
@@ -44,14 +52,25 @@ pub(super) fn row(
     shooter: PatchId,
 ) -> Row {
     let patch = &mesh[shooter];
-    let eye = patch.corners.iter().sum::<DVec3>() / patch.corners.len() as f64;
-    let sights = hemicube.look(&mesh.patches, (eye, patch.normal), turn(shooter.index()));
-    let mut row = Row { escaped: hemicube.escaping(), ..Row::default() };
-    for sight in sights {
-        if sight.front {
-            Linking { mesh, surfaces, hemicube, sight }.link(patch.root, &mut row.links);
-        } else {
-            row.on_backs += sight.delta;
+    let mut row = Row::default();
+    let mut open = vec![patch.root];
+    while let Some(source) = open.pop() {
+        let place = Place::new(mesh, surfaces, source);
+        let eye = (place.centre, place.normal);
+        let sights = hemicube.look(&mesh.patches, eye, turn(source.index()));
+        let parts = &mesh[source].children;
+        if !parts.is_empty() && hemicube.share_within(CLOSE * place.size) > CLOSE_SHARE {
+            open.extend_from_slice(parts);
+            continue;
+        }
+        let share = mesh[source].area / patch.area;
+        row.escaped += hemicube.escaping() * share;
+        for sight in sights {
+            if sight.front {
+                Linking { mesh, surfaces, hemicube, sight }.link(source, &mut row.links);
+            } else {
+                row.on_backs += sight.delta * share;
+            }
         }
     }
     row
@@ -124,14 +143,20 @@ impl Linking<'_, '_> {
     }
 
     fn place(&self, element: ElementId) -> Place {
-        let plane = &self.surfaces.list[self.mesh.surface_of(element)].plane;
-        let outline = self.mesh.outline(element);
-        Place {
+        Place::new(self.mesh, self.surfaces, element)
+    }
+}
+
+impl Place {
+    fn new(mesh: &Mesh, surfaces: &Surfaces, element: ElementId) -> Self {
+        let plane = &surfaces.list[mesh.surface_of(element)].plane;
+        let outline = mesh.outline(element);
+        Self {
             element,
             corners: outline.iter().map(|&p| plane.lift(p)).collect(),
             centre: plane.lift(centroid(&outline)),
             normal: plane.normal,
-            size: self.mesh[element].area.sqrt(),
+            size: mesh[element].area.sqrt(),
         }
     }
 }
