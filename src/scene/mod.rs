@@ -113,4 +113,3 @@ impl Scene {
         !self.lights.is_empty() || self.emitters().next().is_some()
     }
 }
-

@@ -71,22 +71,6 @@ impl Raster {
         }
     }
 
-    /// Cell that a direction falls on, as (row counted over all faces, column).
-    pub(super) fn cell(&self, local: Vec3) -> Option<(usize, usize)> {
-        let mut first_row = 0;
-        for face in &FACES {
-            let view = face.look(local);
-            let rows = face.rows(self.resolution);
-            if face.depths(view).into_iter().all(|depth| depth >= 0.0) && view.z > 0.0 {
-                let [x, y] = face.place(view, self.resolution);
-                let column = (x as usize).min(self.resolution - 1);
-                return Some((first_row + (y as usize).min(rows - 1), column));
-            }
-            first_row += rows;
-        }
-        None
-    }
-
     /// Fills the spans of the rows whose centres the clipped polygon crosses.
     fn scan(&mut self, face: &Face) -> std::ops::Range<usize> {
         let rows = face.rows(self.resolution);
