@@ -244,7 +244,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
 
     #[test]
-    fn contact_lines_are_kept_wherever_a_box_stands(x in 0.6..3.4, z in 0.6..4.4, turn in 0.0..TAU, sunk in 0.0..0.2) {
+    fn contact_lines_are_kept_wherever_a_box_stands(x in 0.6..3.4, z in 0.6..4.4, turn in 0.0..TAU, sunk in 0.0_f64..0.2) {
         let block = Block { base: DVec3::new(x, -sunk, z), turn, ..turned_block(0.0) };
         let scene = furnished_room(&[block]);
         assert_no_straddling(&scene);
