@@ -75,8 +75,9 @@ fn clip(segment: Segment, lines: &[Line], tolerance: f64) -> Option<Segment> {
 fn grid_line(cell: &Cell, cuts: &Cuts<'_>) -> Option<Line> {
     let [low, high] = bounds(&cell.polygon);
     let extent = high - low;
-    let axis = usize::from(extent.y > extent.x);
-    let parts = (extent[axis] / cuts.size - 0.25).ceil();
+    // Rounding must not decide how squares are cut.
+    let axis = usize::from(extent.y > extent.x + cuts.tolerance);
+    let parts = ((extent[axis] - cuts.tolerance) / cuts.size - 0.25).ceil();
     if parts < 2.0 {
         return None;
     }
@@ -108,12 +109,12 @@ fn segment_line(cell: &Cell, tolerance: f64) -> Option<Line> {
             .collect();
         let length = segment[0].distance(segment[1]);
         let longest = chord.iter().map(|p| p.distance(chord[0])).fold(length, f64::max);
-        (length / longest, length)
+        // Rounding must not decide between segments of equal length, or that all cross the whole cell.
+        [length / longest * 1e6, length / tolerance].map(f64::round)
     };
     let best = cell.segments.iter().max_by(|a, b| {
         let (a, b) = (reach(a), reach(b));
-        // Rounding must not decide between segments that all cross the whole cell.
-        if (a.0 - b.0).abs() > 1e-6 { a.0.total_cmp(&b.0) } else { a.1.total_cmp(&b.1) }
+        a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
     });
     best.map(|&segment| Line::through(segment))
 }

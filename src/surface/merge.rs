@@ -83,11 +83,11 @@ fn plane_of(scene: &Scene, face: &Face) -> Plane {
     let at = |v: u32| scene.positions[v as usize];
     let origin = at(face.vertices[0]);
     let normal: DVec3 = edges(face).map(|[a, b]| (at(a) - origin).cross(at(b) - origin)).sum();
-    let longest = edges(face)
-        .map(|[a, b]| at(b) - at(a))
-        .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))
-        .unwrap_or(DVec3::X);
-    Plane::new(origin, normal.normalize_or(DVec3::Y), longest)
+    let along = || edges(face).map(|[a, b]| at(b) - at(a));
+    let longest = along().map(DVec3::length).fold(0.0, f64::max);
+    // Rounding must not decide between edges of equal length.
+    let first = along().find(|edge| edge.length() >= longest * (1.0 - 1e-6));
+    Plane::new(origin, normal.normalize_or(DVec3::Y), first.unwrap_or(DVec3::X))
 }
 
 /// True if `other` may be one region with `seed`. Facets of a curved surface stay apart: each has its own light.

@@ -93,10 +93,11 @@ impl Occluders {
         if self.polygons.is_empty() {
             return false;
         }
-        let (from, to) = ((a - self.centre).as_vec3a(), (b - self.centre).as_vec3a());
-        let ray = Ray::new(from, to - from, 0.0, 1.0);
+        // With a unit direction: the hierarchy takes components below 1e-7 for zero, whatever the scene's size.
+        let along = (b - a).normalize_or_zero().as_vec3a();
+        let ray = Ray::new((a - self.centre).as_vec3a(), along, 0.0, a.distance(b) as f32);
         !self.bvh.ray_traverse_miss(ray, |_, slot| {
-            if self.polygons[slot].crosses(a, b, self.tolerance) { 0.5 } else { f32::INFINITY }
+            if self.polygons[slot].crosses(a, b, self.tolerance) { 0.0 } else { f32::INFINITY }
         })
     }
 

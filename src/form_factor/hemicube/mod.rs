@@ -19,6 +19,9 @@ use raster::{Footprint, Raster, first_centre};
 /// Patches in one plane with the eye are seen edge-on, that is, not at all; heights below this, m, are rounding.
 const HAIR: f64 = 1e-11;
 
+/// Factor on the nearness of backs: of two faces back to back in one place, the front one must win over rounding.
+const RECESS: f32 = 1.0 - 1e-5;
+
 /// No patch at all: light escapes through the cell.
 const NOTHING: u32 = u32::MAX;
 
@@ -138,6 +141,7 @@ impl<'a> Hemicube<'a> {
         if height.abs() < HAIR || (patch.two_sided && height < 0.0) {
             return;
         }
+        let recess = if height < 0.0 { RECESS } else { 1.0 };
         let resolution = self.delta.resolution();
         let (depths, items, delta) = (&mut self.depth, &mut self.item, self.delta);
         let mut covered = 0.0;
@@ -147,7 +151,7 @@ impl<'a> Hemicube<'a> {
             drawn = true;
             for (row, columns) in footprint.rows(resolution) {
                 covered += delta.sum(row, columns.clone());
-                let [first, step] = footprint.nearness(row, columns.start);
+                let [first, step] = footprint.nearness(row, columns.start).map(|n| n * recess);
                 let cells = row * resolution + columns.start..row * resolution + columns.end;
                 let cells = depths[cells.clone()].iter_mut().zip(&mut items[cells]);
                 for (column, (depth, item)) in cells.enumerate() {
