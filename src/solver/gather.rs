@@ -27,7 +27,7 @@ const DEEPEST: u32 = 6;
 const WIDE: f64 = 0.02;
 
 /// Changes of this many times the finest difference that gathering resolves make a vertex's light stale.
-const STALE: f64 = 3.0;
+const STALE: f64 = 8.0;
 
 /// The patches that fill much of a vertex's view, and their form factors.
 type View = SmallVec<[(PatchId, f64); 8]>;

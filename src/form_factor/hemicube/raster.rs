@@ -59,9 +59,11 @@ impl Raster {
             return;
         }
         let plane = (*frame * normal / (corners[0] - eye).dot(normal)).as_vec3();
+        let low = local.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+        let high = local.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
         let mut first_row = 0;
         for face in &FACES {
-            if face.clip(&local, &mut self.clipped) {
+            if face.faces(low, high) && face.clip(&local, &mut self.clipped) {
                 let rows = self.scan(face);
                 let depth = self.depth(face, plane, rows.start);
                 let spans = &self.spans[rows.clone()];
@@ -120,6 +122,11 @@ impl Face {
     fn look(&self, p: Vec3) -> Vec3 {
         let p = p.to_array();
         Vec3::new(p[self.axes[0]], p[self.axes[1]], p[self.axes[2]] * self.sign)
+    }
+
+    /// False only if a box is nowhere in front of the face.
+    fn faces(&self, low: Vec3, high: Vec3) -> bool {
+        self.look(if self.sign > 0.0 { high } else { low }).z > 0.0
     }
 
     /// How far a point of the view is inside of each of the four planes through the eye that bound the face.
