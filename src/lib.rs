@@ -1,6 +1,6 @@
 //! Adaptive radiosity: a scene of diffuse surfaces in, a crack-free mesh that carries its light out.
 //!
-//! scene → surface → mesh → visibility → form_factor → refine → solver → reconstruct → export, render
+//! scene → surface → mesh → visibility → `form_factor` → refine → solver → reconstruct → tone → export, render
 //!
 //! Data moves left to right. A module may use those to its left, never those to its right.
 //!
@@ -15,6 +15,8 @@ pub mod settings;
 pub mod scene;
 
 pub mod reconstruct;
+
+pub mod tone;
 
 pub use error::{Error, Result};
 pub use reconstruct::TriMesh;
