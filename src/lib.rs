@@ -18,6 +18,8 @@ pub mod reconstruct;
 
 pub mod tone;
 
+pub mod render;
+
 pub use error::{Error, Result};
 pub use reconstruct::TriMesh;
 pub use scene::{Scene, load};
