@@ -25,6 +25,14 @@ const INSIDE_FOV: f64 = 70.0 / 180.0 * PI;
 /// Room left around what is seen from outside, as a factor on the distance.
 const FRAME: f64 = 1.03;
 
+/// Least cosine between a front and the direction to a viewer outside for it to count in framing;
+/// below zero because perspective shows side walls.
+const LEAST_FACING: f64 = -0.3;
+
+/// Share of the best score at which an earlier candidate is preferred, so that rounding does not
+/// choose the side from which a symmetric scene is seen.
+const GOOD_ENOUGH: f64 = 0.98;
+
 /// Exposed luminance from which a surface counts as lit: a tenth of the mean's.
 const LIT: f64 = 0.025;
 
@@ -54,8 +62,9 @@ pub fn automatic_camera(mesh: &TriMesh, aspect: f64) -> Camera {
     let mut candidates = outside_views(mesh, aspect);
     candidates.extend(inside_views(mesh));
     let scores: Vec<f64> = candidates.par_iter().map(|camera| judge.score(camera)).collect();
-    let best = (0..scores.len()).rev().max_by(|&a, &b| scores[a].total_cmp(&scores[b]));
-    candidates.swap_remove(best.unwrap_or(0))
+    let best = scores.iter().copied().fold(0.0, f64::max);
+    let chosen = scores.iter().position(|&score| score >= GOOD_ENOUGH * best).unwrap_or(0);
+    candidates.swap_remove(chosen)
 }
 
 fn extent(mesh: &TriMesh) -> f64 {
@@ -75,10 +84,9 @@ fn outside_views(mesh: &TriMesh, aspect: f64) -> Vec<Camera> {
         .collect()
 }
 
-/// A view of all of the mesh's box; azimuth 0 looks along −z, from the front as modellers have it.
+/// A view of all fronts that can be seen from a direction; azimuth 0 looks along −z, from the front
+/// as modellers have it.
 fn framed(mesh: &TriMesh, azimuth: f64, elevation: f64, aspect: f64) -> Camera {
-    let (low, high) = bounds(mesh);
-    let target = (low + high) / 2.0;
     let back = DVec3::new(
         azimuth.sin() * elevation.cos(),
         elevation.sin(),
@@ -86,17 +94,28 @@ fn framed(mesh: &TriMesh, azimuth: f64, elevation: f64, aspect: f64) -> Camera {
     );
     let right = DVec3::Y.cross(back).normalize();
     let up = back.cross(right);
+    let corners: Vec<DVec3> =
+        fronts(mesh, back).map(|p| DVec3::new(p.dot(right), p.dot(up), p.dot(back))).collect();
+    let low = corners.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = corners.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let centre = if corners.is_empty() { DVec3::ZERO } else { (low + high) / 2.0 };
     let slope = (OUTSIDE_FOV / 2.0).tan();
-    let distance = (0..8)
-        .map(|corner| {
-            let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
-            let offset = DVec3::new(pick(0), pick(1), pick(2)) - target;
-            let across = (offset.dot(right).abs() / aspect).max(offset.dot(up).abs());
-            across / slope + offset.dot(back)
-        })
+    let distance = corners
+        .iter()
+        .map(|corner| corner - centre)
+        .map(|offset| (offset.x.abs() / aspect).max(offset.y.abs()) / slope + offset.z)
         .fold(0.0, f64::max);
     let distance = if distance > 0.0 { distance * FRAME } else { 1.0 };
+    let target = centre.x * right + centre.y * up + centre.z * back;
     camera(target + distance * back, target, OUTSIDE_FOV)
+}
+
+/// Corners, m, of the triangles whose front may be seen from the direction `back`.
+fn fronts(mesh: &TriMesh, back: DVec3) -> impl Iterator<Item = DVec3> {
+    let corners = mesh.triangles.iter().map(|t| t.map(|corner| mesh.positions[corner as usize]));
+    corners
+        .filter(move |[a, b, c]| (b - a).cross(c - a).normalize_or_zero().dot(back) > LEAST_FACING)
+        .flatten()
 }
 
 /// Views from the corners and the walls of the mesh's box to the opposite side, slightly down.
