@@ -32,6 +32,7 @@ pub mod reconstruct;
 pub mod tone;
 
 pub mod export;
+pub mod render;
 
 pub use error::{Error, Result};
 pub use reconstruct::{TriMesh, reconstruct};

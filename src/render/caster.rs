@@ -1,0 +1,150 @@
+//! Finds the first triangle along a ray, without gaps between neighbours.
+
+use std::time::Duration;
+
+use glam::{DVec3, Vec3A};
+use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2;
+use obvhs::ray::Ray;
+
+use crate::reconstruct::TriMesh;
+
+/// Growth of the boxes around triangles, as a share of the mesh's size: far above the rounding of
+/// f32, far below a pixel. Each box grows by its own amount, up to twice this, because the builder
+/// makes lists instead of trees out of the equal boxes of regular meshes.
+const PADDING: f64 = 1e-5;
+
+/// How far outside a triangle, in barycentric coordinates, a ray still hits it: above the rounding
+/// of f64, so that no ray slips between neighbours.
+const EDGE: f64 = 1e-9;
+
+/// Which sides of the triangles stop a ray.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sides {
+    Front,
+    Both,
+}
+
+/// Where a ray meets the mesh.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hit {
+    /// Index into [`TriMesh::triangles`].
+    pub(super) triangle: usize,
+    /// Distance from the eye, m.
+    pub(super) distance: f64,
+    /// Barycentric coordinates, at least zero, with sum 1.
+    pub(super) weights: DVec3,
+    /// True if the ray comes from the triangle's front.
+    pub(super) front: bool,
+}
+
+/// The triangles of a mesh in a tree of boxes, moved and scaled into the unit cube around the
+/// origin, where f32 is at its best.
+pub(super) struct Caster {
+    tree: Bvh2,
+    /// In the order of the tree's leaves.
+    triangles: Vec<Triangle>,
+    centre: DVec3,
+    size: f64,
+}
+
+struct Triangle {
+    corners: [DVec3; 3],
+    index: usize,
+}
+
+impl Caster {
+    pub(super) fn new(mesh: &TriMesh) -> Self {
+        let (low, high) = bounds(mesh);
+        let centre = (low + high) / 2.0;
+        let size = Some((high - low).max_element()).filter(|size| *size > 0.0).unwrap_or(1.0);
+        let corners = |triangle: usize| {
+            mesh.triangles[triangle].map(|c| (mesh.positions[c as usize] - centre) / size)
+        };
+        let count = mesh.triangles.len();
+        if count == 0 {
+            return Self { tree: Bvh2::default(), triangles: Vec::new(), centre, size };
+        }
+        let boxes: Vec<Aabb> = (0..count).map(|index| padded_box(corners(index), index)).collect();
+        let mut tree = build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Duration::default());
+        // Reinsertion may deepen the tree, and a stack too small loses hits.
+        tree.max_depth = tree.max_depth.max(tree.depth(0) + 1);
+        let triangles = tree
+            .primitive_indices
+            .iter()
+            .map(|&index| Triangle { corners: corners(index as usize), index: index as usize })
+            .collect();
+        Self { tree, triangles, centre, size }
+    }
+
+    /// The nearest triangle from `eye` along the unit vector `direction`.
+    pub(super) fn first(&self, eye: DVec3, direction: DVec3, sides: Sides) -> Option<Hit> {
+        let eye = (eye - self.centre) / self.size;
+        // All triangles are within the unit sphere: the ray starts where it may enter it.
+        let skipped = (-eye.dot(direction) - 1.0).max(0.0);
+        let origin = eye + skipped * direction;
+        let mut nearest: Option<Hit> = None;
+        let ray = Ray::new_inf(origin.as_vec3a(), direction.as_vec3a());
+        let mut ignored = obvhs::ray::RayHit::none();
+        self.tree.ray_traverse(ray, &mut ignored, |_, slot| {
+            let hit = self.triangles[slot].meet(origin, direction, sides);
+            let Some(hit) = hit.filter(|hit| nearest.is_none_or(|n| hit.distance < n.distance))
+            else {
+                return f32::INFINITY;
+            };
+            nearest = Some(hit);
+            hit.distance as f32
+        });
+        nearest.map(|hit| Hit { distance: (hit.distance + skipped) * self.size, ..hit })
+    }
+}
+
+impl Triangle {
+    /// Edge functions as triple products: an edge has bitwise opposite values in its two triangles.
+    fn meet(&self, origin: DVec3, direction: DVec3, sides: Sides) -> Option<Hit> {
+        let [a, b, c] = self.corners.map(|corner| corner - origin);
+        let edges = DVec3::new(
+            direction.dot(c.cross(b)),
+            direction.dot(a.cross(c)),
+            direction.dot(b.cross(a)),
+        );
+        let sum = edges.element_sum();
+        let front = sum > 0.0;
+        if sum == 0.0 || (sides == Sides::Front && !front) {
+            return None;
+        }
+        let weights = edges / sum;
+        if weights.min_element() < -EDGE {
+            return None;
+        }
+        let normal = (b - a).cross(c - a);
+        let distance = a.dot(normal) / direction.dot(normal);
+        if !(distance > 0.0 && distance.is_finite()) {
+            return None;
+        }
+        let weights = weights.max(DVec3::ZERO);
+        let weights = weights / weights.element_sum();
+        Some(Hit { triangle: self.index, distance, weights, front })
+    }
+}
+
+/// Least and greatest coordinates of the mesh's triangles, m; both zero if there is none.
+pub(super) fn bounds(mesh: &TriMesh) -> (DVec3, DVec3) {
+    let mut corners = mesh.triangles.iter().flatten().map(|&c| mesh.positions[c as usize]);
+    let Some(first) = corners.next() else {
+        return (DVec3::ZERO, DVec3::ZERO);
+    };
+    corners.fold((first, first), |(low, high), p| (low.min(p), high.max(p)))
+}
+
+fn padded_box(corners: [DVec3; 3], index: usize) -> Aabb {
+    let [a, b, c] = corners;
+    // The golden ratio's multiples spread evenly, whatever the order of the triangles.
+    let spread = (index as f64 * 0.618_033_988_749_894_8).fract();
+    let padding = DVec3::splat(PADDING * (1.0 + spread));
+    let low: Vec3A = (a.min(b).min(c) - padding).as_vec3a();
+    let high: Vec3A = (a.max(b).max(c) + padding).as_vec3a();
+    Aabb::new(low, high)
+}
