@@ -117,7 +117,8 @@ fn a_module_uses_only_those_to_its_left() {
 
 #[test]
 fn library_names_its_modules_in_flow_order() {
-    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs")).unwrap();
+    let text =
+        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs")).unwrap();
     let modules = text.lines().filter_map(|line| line.strip_prefix("pub mod "));
     let ranks: Vec<usize> = modules.map(|line| rank(line.trim_end_matches(';')).unwrap()).collect();
     assert!(ranks.is_sorted() && ranks.len() >= 12, "{ranks:?}");

@@ -23,9 +23,7 @@ fn triangle() -> impl Strategy<Value = [DVec3; 3]> {
     (point(1.0), point(1.0), point(1.0))
         .prop_map(|(a, b, c)| [a, b, c].map(|p| p + DVec3::Z * 0.6))
         .prop_filter("slender", |[a, b, c]| (b - a).cross(c - a).length() > 0.2)
-        .prop_filter("edge-on", |[a, b, c]| {
-            (b - a).cross(c - a).normalize().dot(*a).abs() > 0.05
-        })
+        .prop_filter("edge-on", |[a, b, c]| (b - a).cross(c - a).normalize().dot(*a).abs() > 0.05)
 }
 
 /// Nusselt's analogue: the share of the unit disc under the triangle's projection on the hemisphere.
@@ -36,8 +34,7 @@ fn by_nusselt([a, b, c]: [DVec3; 3]) -> f64 {
     let sign = (b - a).cross(c - a).dot(a).signum();
     let covers = |x: f64, y: f64| {
         let height = 1.0 - x * x - y * y;
-        height > 0.0
-            && normals.iter().all(|n| n.dot(DVec3::new(x, y, height.sqrt())) * sign >= 0.0)
+        height > 0.0 && normals.iter().all(|n| n.dot(DVec3::new(x, y, height.sqrt())) * sign >= 0.0)
     };
     let count = (0..CELLS)
         .flat_map(|row| (0..CELLS).map(move |column| (at(column), at(row))))
@@ -70,14 +67,16 @@ proptest! {
 fn form_factors_between_polygons_are_reciprocal() {
     let square = |low: DVec3, a: DVec3, b: DVec3| [low, low + a, low + a + b, low + b];
     let first = square(DVec3::ZERO, DVec3::X, DVec3::Y * 0.7);
-    let second = square(DVec3::new(0.4, -0.3, 1.0), DVec3::new(0.0, 1.4, 0.2), DVec3::new(0.9, 0.0, 0.5));
+    let second =
+        square(DVec3::new(0.4, -0.3, 1.0), DVec3::new(0.0, 1.4, 0.2), DVec3::new(0.9, 0.0, 0.5));
     let exchange = |[a, b, _, d]: [DVec3; 4], other: [DVec3; 4], inward: DVec3| {
         const CELLS: i32 = 60;
         let normal = (b - a).cross(d - a);
         let area = normal.length();
         let normal = normal.normalize() * normal.dot(inward - a).signum();
         let at = |k: i32| (f64::from(k) + 0.5) / f64::from(CELLS);
-        let places = (0..CELLS).flat_map(|i| (0..CELLS).map(move |j| a + (b - a) * at(i) + (d - a) * at(j)));
+        let places =
+            (0..CELLS).flat_map(|i| (0..CELLS).map(move |j| a + (b - a) * at(i) + (d - a) * at(j)));
         let sum: f64 = places.map(|p| point_to_polygon(p, normal, &other)).sum();
         area * sum / f64::from(CELLS).powi(2)
     };
@@ -107,9 +106,8 @@ fn what_a_point_sees_of_a_closed_room_adds_up_to_one() {
             continue;
         }
         let sights = hemicube.look(&mesh.patches, (eye, DVec3::Y), f64::from(k));
-        let factor = |patch: radiosity::mesh::PatchId| {
-            point_to_polygon(eye, DVec3::Y, &mesh[patch].corners)
-        };
+        let factor =
+            |patch: radiosity::mesh::PatchId| point_to_polygon(eye, DVec3::Y, &mesh[patch].corners);
         let exact: f64 = sights.iter().map(|s| s.visible * factor(s.patch)).sum();
         let cells: f64 = sights.iter().map(|s| s.delta).sum();
         assert!((exact - 1.0).abs() < 0.01, "{exact} seen from {eye}");
@@ -202,7 +200,10 @@ fn direct_light_under_a_blocker_is_the_integral_over_the_lamp() {
         let place = DVec3::new(share(0.618_034), 0.0, share(0.754_878));
         let light = lamps.shine(&occluders, place, DVec3::Y);
         let (expected, all) = integral(place);
-        assert!((light.irradiance.x - expected).abs() < 2e-3 * all, "{light:?} for {expected} at {place}");
+        assert!(
+            (light.irradiance.x - expected).abs() < 2e-3 * all,
+            "{light:?} for {expected} at {place}"
+        );
         assert!((light.unoccluded.x - all).abs() < 1e-4 * all, "{light:?} for {all} at {place}");
         shadowed += usize::from(expected < 0.99 * all);
     }
@@ -216,7 +217,8 @@ fn integral(place: DVec3) -> (f64, f64) {
     let (mut free, mut all) = (0.0, 0.0);
     for cell in 0..CELLS * CELLS {
         let to = DVec3::new(at(cell % CELLS), 2.0, 0.8 * at(cell / CELLS)) - place;
-        let share = to.y * to.y / (PI * to.length_squared().powi(2)) * 0.8 / f64::from(CELLS * CELLS);
+        let share =
+            to.y * to.y / (PI * to.length_squared().powi(2)) * 0.8 / f64::from(CELLS * CELLS);
         let half = place + to * 0.5;
         let blocked = half.x > -0.3 && half.x < 0.4 && half.z > -0.2 && half.z < 0.3;
         all += share;
