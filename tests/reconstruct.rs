@@ -105,7 +105,7 @@ fn assert_whole(mesh: &TriMesh, scene: &Scene) {
         let at = corners(mesh, triangle);
         let area = triangle_area(at);
         let longest = at[0].distance(at[1]).max(at[1].distance(at[2])).max(at[2].distance(at[0]));
-        assert!(2.0 * area / longest > 1e-6 * extent, "{at:?} is degenerate");
+        assert!(2.0 * area / longest > 1e-8 * extent, "{at:?} is degenerate");
         let facing = facing(at).as_vec3();
         assert!(
             triangle.iter().all(|&v| mesh.normals[v as usize].dot(facing) > 0.0),
