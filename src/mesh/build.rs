@@ -113,12 +113,21 @@ impl Mesh {
         contacts.iter().any(|&c| polygon::distance(segments[c as usize], position) <= tolerance)
     }
 
-    /// Where to evaluate light for a place on a patch: a hair nearer to its middle.
+    /// Where to evaluate light for a place on a patch: moved inwards until it is a hair away from every border,
+    /// so that what stands along a border is seen from the patch's side.
     fn site(&self, patch: PatchId, position: DVec2) -> DVec3 {
-        let Patch { surface, corners, .. } = &self[patch];
-        let place = self.index.sheets[*surface as usize].plane.lift(position);
-        let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
-        place + (middle - place).clamp_length_max(INSET * self.index.tolerance)
+        let Patch { surface, corners, normal, area, .. } = &self[patch];
+        let edges = || corners.iter().zip(corners.iter().cycle().skip(1));
+        let perimeter: f64 = edges().map(|(a, b)| a.distance(*b)).sum();
+        let inset = (INSET * self.index.tolerance).min(0.2 * area / perimeter);
+        let mut site = self.index.sheets[*surface as usize].plane.lift(position);
+        for _ in 0..2 {
+            for (&a, &b) in edges() {
+                let inward = normal.cross(b - a).normalize_or_zero();
+                site += inward * (inset - (site - a).dot(inward)).max(0.0);
+            }
+        }
+        site
     }
 
     fn divide_uniformly(&mut self, size: f64) {

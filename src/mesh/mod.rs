@@ -138,6 +138,15 @@ impl Mesh {
         (0..self.elements.len() as u32).map(ElementId).filter(|&e| self[e].is_leaf())
     }
 
+    /// The elements of each patch, parents before their children.
+    pub fn trees(&self) -> Vec<Vec<ElementId>> {
+        let mut trees = vec![Vec::new(); self.patches.len()];
+        for (index, element) in self.elements.iter().enumerate() {
+            trees[element.patch.index()].push(ElementId(index as u32));
+        }
+        trees
+    }
+
     /// The surface an element lies on, as an index into [`crate::surface::Surfaces::list`].
     pub fn surface_of(&self, element: ElementId) -> usize {
         self[self[element].patch].surface as usize

@@ -1,14 +1,12 @@
 //! Direct light at vertices, and the mesh refined until it can be interpolated.
 
-use std::ops::ControlFlow;
-
 use glam::DVec2;
 use rayon::prelude::*;
 
 use super::{Observer, Phase};
 use crate::colour::Rgb;
 use crate::direct::{Lamps, light_vertices};
-use crate::mesh::{Direct, ElementId, Mesh, Middle, Vertex, VertexId};
+use crate::mesh::{Direct, ElementId, Mesh, Middle, Split, Vertex, VertexId};
 use crate::refine::{Oracle, strength};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
@@ -36,35 +34,40 @@ pub(super) fn light(world: World<'_>, mesh: &mut Mesh) {
     }
 }
 
-/// Refines the mesh until direct light can be interpolated, and returns the oracle that judged it.
+/// Refines the mesh until direct light can be interpolated; leaves a uniform mesh as it is.
 pub(super) fn refine(
     world: World<'_>,
     settings: &Settings,
     mesh: &mut Mesh,
     observer: &mut Observer<'_>,
-) -> ControlFlow<()> {
+) {
     light(world, mesh);
+    if settings.uniform.is_some() {
+        return;
+    }
     let oracle = Oracle::new(settings, world.surfaces.extent, mean_radiosity(mesh));
     let mut candidates: Vec<ElementId> = mesh.leaves().collect();
     for level in 0..settings.max_level {
-        observer.tell(Phase::Direct, f64::from(level) / f64::from(settings.max_level))?;
+        if observer.tell(Phase::Direct, f64::from(level) / f64::from(settings.max_level)).is_break()
+        {
+            return;
+        }
         candidates.retain(|&e| oracle.may_divide(mesh, e) && reflects(mesh, e));
         let middles: Vec<Middle> = candidates.iter().map(|&e| mesh.middle(e)).collect();
         light(world, mesh);
         let judged = candidates.par_iter().zip(&middles);
-        let verdicts: Vec<_> =
+        let verdicts: Vec<Option<Split>> =
             judged.map(|(&e, middle)| judge(world, mesh, &oracle, e, middle)).collect();
 
-        let mut next = Vec::new();
+        let mut parts = Vec::new();
         for ((&element, middle), verdict) in candidates.iter().zip(&middles).zip(verdicts) {
             if let Some(split) = verdict {
                 mesh.split(element, split, oracle.reason(mesh, element, middle));
-                next.extend_from_slice(&mesh[element].children);
+                parts.extend_from_slice(&mesh[element].children);
             }
         }
-        candidates = next;
+        candidates = parts;
     }
-    ControlFlow::Continue(())
 }
 
 /// Black surfaces show no light, so nothing is gained by dividing them.
@@ -93,7 +96,7 @@ fn judge(
     oracle: &Oracle,
     element: ElementId,
     middle: &Middle,
-) -> Option<crate::mesh::Split> {
+) -> Option<Split> {
     let reflectance = mesh[mesh[element].patch].reflectance;
     let irradiance = |v: VertexId| mesh[v].direct.unwrap_or_default().irradiance;
     let light = |vertex: &Vertex| reflectance * vertex.direct.unwrap_or_default().irradiance;

@@ -2,7 +2,6 @@
 
 use crate::colour::Rgb;
 use crate::mesh::{ElementId, Mesh};
-use crate::refine::strength;
 
 /// Light on every element of a mesh; all lists are one entry per element.
 #[derive(Clone, Debug, Default)]
@@ -11,10 +10,6 @@ pub struct ElementLight {
     pub direct: Vec<Rgb>,
     /// Mean irradiance by reflected light, W/m².
     pub indirect: Vec<Rgb>,
-    /// Mean reflected radiosity, W/m²; emission is not part of it.
-    pub reflected: Vec<Rgb>,
-    /// How far the reflected radiosities of an element's parts are from its own, W/m².
-    pub spread: Vec<f64>,
 }
 
 impl ElementLight {
@@ -22,7 +17,7 @@ impl ElementLight {
     pub fn direct(mesh: &Mesh) -> Self {
         let leaf = |element| mean_direct(mesh, element);
         let direct = pull(mesh, leaf);
-        Self { indirect: vec![Rgb::ZERO; direct.len()], direct, ..Self::default() }
+        Self { indirect: vec![Rgb::ZERO; direct.len()], direct }
     }
 
     /// Settles the light received at all levels, so that every element has its mean.
@@ -35,18 +30,22 @@ impl ElementLight {
             }
         }
         self.indirect = pull(mesh, |element| sum[element.index()]);
-        let reflected = |(index, element): (usize, &crate::mesh::Element)| {
-            mesh[element.patch].reflectance * (self.direct[index] + self.indirect[index])
-        };
-        self.reflected = mesh.elements.iter().enumerate().map(reflected).collect();
-        self.spread = vec![0.0; self.reflected.len()];
-        for (index, element) in mesh.elements.iter().enumerate().rev() {
-            let differs = |child: &ElementId| {
-                let difference = self.reflected[child.index()] - self.reflected[index];
-                strength(difference) + self.spread[child.index()]
-            };
-            self.spread[index] = element.children.iter().map(differs).fold(0.0, f64::max);
+    }
+
+    /// Irradiance by reflected light at vertices, W/m², one per vertex: the mean of the leaves around, by area.
+    pub(super) fn indirect_at_vertices(&self, mesh: &Mesh) -> Vec<Rgb> {
+        let mut sums = vec![(Rgb::ZERO, 0.0); mesh.vertices.len()];
+        for leaf in mesh.leaves() {
+            let element = &mesh[leaf];
+            for corner in &element.corners {
+                let (sum, area) = &mut sums[corner.index()];
+                *sum += self.indirect[leaf.index()] * element.area;
+                *area += element.area;
+            }
         }
+        sums.into_iter()
+            .map(|(sum, area)| if area > 0.0 { sum / area } else { Rgb::ZERO })
+            .collect()
     }
 }
 

@@ -9,65 +9,100 @@ use glam::DVec3;
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
-use super::ElementLight;
 use super::direct_pass::World;
+use super::sources::{Piece, Sources};
 use super::transport::turn;
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::{DeltaFactors, Hemicube, Sight};
-use crate::mesh::{ElementId, Mesh, VertexId};
-use crate::surface::Surfaces;
-use crate::visibility::Occluders;
+use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
 
 /// Cells along the edge of the hemicubes over vertices: they measure visibility only, and vertices are many.
 const RESOLUTION: usize = 64;
 
+/// Deepest division of a leaf seen from close by.
+const DEEPEST: u32 = 6;
+
+/// Patches that fill less than this of a vertex's view may change without its light being gathered anew.
+const WIDE: f64 = 0.02;
+
+/// Changes of this many times the finest difference that gathering resolves make a vertex's light stale.
+const STALE: f64 = 3.0;
+
+/// The patches that fill much of a vertex's view, and their form factors.
+type View = SmallVec<[(PatchId, f64); 8]>;
+
 /// Gathers indirect light at points.
 pub(super) struct Gatherer<'a> {
-    surfaces: &'a Surfaces,
-    occluders: &'a Occluders,
-    light: &'a ElementLight,
+    world: World<'a>,
+    sources: Sources,
     delta: DeltaFactors,
     /// Elements whose parts may change a result by more than this, W/m², are taken in parts.
     fine: f64,
+    /// What vertices saw whose light was gathered.
+    views: Vec<Option<View>>,
+    /// How often light was gathered.
+    pub(super) gathered: usize,
 }
 
 impl<'a> Gatherer<'a> {
-    pub(super) fn new(world: World<'a>, light: &'a ElementLight, fine: f64) -> Self {
-        let World { surfaces, occluders, .. } = world;
-        Self { surfaces, occluders, light, delta: DeltaFactors::new(RESOLUTION), fine }
+    pub(super) fn new(world: World<'a>, sources: Sources, fine: f64) -> Self {
+        let delta = DeltaFactors::new(RESOLUTION);
+        Self { world, sources, delta, fine, views: Vec::new(), gathered: 0 }
     }
 
-    /// Evaluates indirect light at those of the vertices that lack it; returns how many they were.
-    pub(super) fn light(
-        &self,
-        mesh: &mut Mesh,
-        vertices: impl IntoIterator<Item = VertexId>,
-    ) -> usize {
+    /// Evaluates indirect light at those of the vertices that lack it.
+    pub(super) fn light(&mut self, mesh: &mut Mesh, vertices: impl IntoIterator<Item = VertexId>) {
         let mut dark: Vec<VertexId> =
             vertices.into_iter().filter(|&v| mesh[v].indirect.is_none()).collect();
         dark.sort_unstable();
         dark.dedup();
-        let lit: Vec<Rgb> = dark
+        let lit: Vec<(Rgb, View)> = dark
             .par_iter()
             .map_init(
-                || Hemicube::new(&self.delta, self.occluders),
+                || Hemicube::new(&self.delta, self.world.occluders),
                 |hemicube, &vertex| self.gather(mesh, hemicube, vertex),
             )
             .collect();
-        for (&vertex, &irradiance) in dark.iter().zip(&lit) {
+        self.gathered += lit.len();
+        self.views.resize(mesh.vertices.len(), None);
+        for (&vertex, (irradiance, view)) in dark.iter().zip(lit) {
             mesh.vertices[vertex.index()].indirect = Some(irradiance);
+            self.views[vertex.index()] = Some(view);
         }
-        dark.len()
     }
 
-    /// Irradiance of a vertex by all reflected light, W/m².
-    fn gather(&self, mesh: &Mesh, hemicube: &mut Hemicube<'_>, vertex: VertexId) -> Rgb {
+    /// Replaces what elements reflect, and forgets the light of vertices that this may change:
+    /// of those that see much of what has changed, and of all that were interpolated.
+    pub(super) fn replace_sources(&mut self, mesh: &mut Mesh, sources: Sources) {
+        let before = std::mem::replace(&mut self.sources, sources);
+        let patches = (0..mesh.patches.len() as u32).map(PatchId);
+        let change: Vec<f64> = patches.map(|p| self.sources.change(mesh, &before, p)).collect();
+        let is_stale = |view: &View| {
+            let seen: f64 = view.iter().map(|(patch, factor)| change[patch.index()] * factor).sum();
+            seen > STALE * self.fine
+        };
+        for (vertex, view) in mesh.vertices.iter_mut().zip(&self.views) {
+            if view.as_ref().is_none_or(is_stale) {
+                vertex.indirect = None;
+            }
+        }
+    }
+
+    /// Irradiance of a vertex by all reflected light, W/m², and what it saw.
+    fn gather(&self, mesh: &Mesh, hemicube: &mut Hemicube<'_>, vertex: VertexId) -> (Rgb, View) {
         let site = mesh[vertex].site;
-        let normal = self.surfaces.list[mesh[vertex].surface as usize].plane.normal;
+        let normal = self.world.surfaces.list[mesh[vertex].surface as usize].plane.normal;
         let sights = hemicube.look(&mesh.patches, (site, normal), turn(vertex.index()));
-        let lit = sights.into_iter().filter(|sight| sight.front);
-        lit.map(|sight| self.receive(mesh, hemicube, (site, normal), sight)).sum()
+        let mut irradiance = Rgb::ZERO;
+        let mut view = View::new();
+        for sight in sights.into_iter().filter(|sight| sight.front) {
+            irradiance += self.receive(mesh, hemicube, (site, normal), sight);
+            if sight.delta > WIDE {
+                view.push((sight.patch, sight.delta));
+            }
+        }
+        (irradiance, view)
     }
 
     /// Irradiance by one patch, from elements small enough.
@@ -78,7 +113,8 @@ impl<'a> Gatherer<'a> {
         (site, normal): (DVec3, DVec3),
         sight: Sight,
     ) -> Rgb {
-        let plane = &self.surfaces.list[mesh[sight.patch].surface as usize].plane;
+        let surfaces = self.world.surfaces;
+        let plane = &surfaces.list[mesh[sight.patch].surface as usize].plane;
         let mut irradiance = Rgb::ZERO;
         let mut open: SmallVec<[ElementId; 32]> = SmallVec::new();
         let root = mesh[sight.patch].root;
@@ -88,8 +124,10 @@ impl<'a> Gatherer<'a> {
             let corners: SmallVec<[DVec3; 8]> =
                 element.corners.iter().map(|&v| plane.lift(mesh[v].position)).collect();
             let factor = point_to_polygon(site, normal, &corners);
-            if factor * self.light.spread[source.index()] > self.fine && !element.is_leaf() {
-                open.extend(element.children.iter().copied());
+            let varies = factor * self.sources.spread(source) > self.fine;
+            let parts = self.sources.parts(mesh, source);
+            if varies && !parts.is_empty() {
+                open.extend_from_slice(parts);
                 continue;
             }
             let visible = match sight.visible {
@@ -97,8 +135,27 @@ impl<'a> Gatherer<'a> {
                 visible if source == root => visible,
                 _ => hemicube.visible_share(sight.patch, &corners, plane.normal),
             };
-            irradiance += self.light.reflected[source.index()] * (factor * visible);
+            irradiance += visible
+                * if varies {
+                    let piece = self.sources.piece(mesh, surfaces, source);
+                    self.from_piece((site, normal), (&piece, factor), DEEPEST)
+                } else {
+                    self.sources.mean(source) * factor
+                };
         }
         irradiance
+    }
+
+    /// Irradiance by a piece of a leaf with this form factor, divided while its variation matters.
+    fn from_piece(&self, eye: (DVec3, DVec3), (piece, factor): (&Piece, f64), depth: u32) -> Rgb {
+        if depth == 0 || factor * piece.spread() <= self.fine {
+            return piece.mean() * factor;
+        }
+        let parts = piece.parts();
+        let lit = parts.iter().map(|part| {
+            let factor = point_to_polygon(eye.0, eye.1, &part.corners);
+            self.from_piece(eye, (part, factor), depth - 1)
+        });
+        lit.sum()
     }
 }

@@ -10,6 +10,7 @@ mod energy;
 mod gather;
 mod indirect_pass;
 mod progressive;
+mod sources;
 mod transport;
 
 use std::ops::ControlFlow;
@@ -29,6 +30,7 @@ pub use energy::Energy;
 use direct_pass::World;
 use gather::Gatherer;
 use progressive::Shooting;
+use sources::Sources;
 
 /// A lit mesh, and how it came to be.
 #[derive(Clone, Debug)]
@@ -80,17 +82,26 @@ pub enum Phase {
     Gathering,
 }
 
-/// Tells a caller how far things are, and is told whether to go on.
-struct Observer<'a>(&'a mut dyn FnMut(&Progress) -> ControlFlow<()>);
+/// Tells a caller how far things are, and remembers if it has had enough.
+struct Observer<'a> {
+    observe: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    flow: ControlFlow<()>,
+}
 
 impl Observer<'_> {
     fn tell(&mut self, phase: Phase, done: f64) -> ControlFlow<()> {
-        (self.0)(&Progress { phase, done: done.clamp(0.0, 1.0) })
+        if self.flow.is_continue() {
+            self.flow = (self.observe)(&Progress { phase, done: done.clamp(0.0, 1.0) });
+        }
+        self.flow
     }
 }
 
-/// Gathering takes elements in parts where these may change the result by this share of the tolerated error.
+/// Gathering resolves differences down to this share of the tolerated error.
 const GATHER_SHARE: f64 = 0.1;
+
+/// Reflected light is exchanged this often: on the mesh that direct light asks for, and on the one that it itself does.
+const ROUNDS: usize = 2;
 
 /// Lights `surfaces`, telling `observe` about each step; when that breaks off, what is there is finished quickly.
 ///
@@ -101,7 +112,7 @@ pub fn solve(
     settings: &Settings,
     mut observe: impl FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<Solution> {
-    let mut observer = Observer(&mut observe);
+    let mut observer = Observer { observe: &mut observe, flow: ControlFlow::Continue(()) };
     let mut mesh = Mesh::new(surfaces, settings);
     let occluders = Occluders::new(surfaces);
     let lamps = Lamps::new(surfaces, &mesh);
@@ -110,54 +121,88 @@ pub fn solve(
     }
     let world = World { surfaces, occluders: &occluders, lamps: &lamps };
 
-    let refined = if settings.uniform.is_some() {
-        direct_pass::light(world, &mut mesh);
-        observer.tell(Phase::Direct, 1.0)
+    direct_pass::refine(world, settings, &mut mesh, &mut observer);
+    let mut exchange = Exchange::new(world, settings, &mesh, &mut observer);
+    let gathered = if exchange.stop == Stop::Converged {
+        gather(world, settings, (&mut mesh, &mut exchange), &mut observer)
     } else {
-        direct_pass::refine(world, settings, &mut mesh, &mut observer)
+        exchange.spread(&mut mesh);
+        0
     };
-    let mut light = ElementLight::direct(&mesh);
-    let mut shooting = Shooting::new(&mesh, world, settings, &light);
-    let stop = match refined {
-        ControlFlow::Continue(()) => shooting.run(settings, &mut observer),
-        ControlFlow::Break(()) => Stop::Cancelled,
-    };
-    let received = std::mem::take(&mut shooting.received);
-    let Shooting { energy, shots, hemicubes, .. } = shooting;
-    let ambient = if stop == Stop::Converged { Rgb::ZERO } else { shooting.ambient() };
-    light.settle(&mesh, &received);
-
-    let mut solution =
-        Solution { mesh, light, energy, stop, shots, hemicubes: [hemicubes, 0], ambient };
-    if stop == Stop::Converged {
-        gather(world, settings, &mut solution, &mut observer);
-        indirect_pass::interpolate(&mut solution.mesh);
-    } else {
-        indirect_pass::average(&mut solution.mesh, &solution.light, ambient);
-    }
-    Ok(solution)
+    let Exchange { light, energy, stop, shots, hemicubes, ambient } = exchange;
+    let hemicubes = [hemicubes, gathered];
+    Ok(Solution { mesh, light, energy, stop, shots, hemicubes, ambient })
 }
 
-/// The last gathering.
+/// Indirect light at vertices, the mesh refined to it. Returns how often light was gathered.
 fn gather(
     world: World<'_>,
     settings: &Settings,
-    solution: &mut Solution,
+    (mesh, exchange): (&mut Mesh, &mut Exchange),
     observer: &mut Observer<'_>,
-) {
-    let mesh = &mut solution.mesh;
+) -> usize {
     let level = direct_pass::mean_radiosity(mesh);
     let fine = GATHER_SHARE * settings.tolerance * level;
-    let gatherer = Gatherer::new(world, &solution.light, fine);
-    if settings.uniform.is_some() {
-        solution.hemicubes[1] = indirect_pass::everywhere(&gatherer, mesh);
-        return;
-    }
     let oracle = Oracle::new(settings, world.surfaces.extent, level);
-    let (gathered, flow) =
-        indirect_pass::refine(world, settings, (&gatherer, &oracle), mesh, observer);
-    solution.hemicubes[1] = gathered;
-    if flow.is_break() {
-        solution.stop = Stop::Cancelled;
+    let mut gatherer = Gatherer::new(world, exchange.sources(mesh), fine);
+    for round in 1..=ROUNDS {
+        indirect_pass::refine((settings, &oracle), &mut gatherer, mesh, observer);
+        direct_pass::light(world, mesh);
+        if round < ROUNDS && observer.flow.is_continue() {
+            let next = Exchange::new(world, settings, mesh, observer);
+            if next.stop == Stop::Converged {
+                *exchange = next;
+                gatherer.replace_sources(mesh, exchange.sources(mesh));
+            }
+        }
+    }
+    if observer.flow.is_break() {
+        exchange.stop = Stop::Cancelled;
+    }
+    indirect_pass::interpolate(mesh);
+    gatherer.gathered
+}
+
+/// Reflected light, exchanged between the patches of a mesh as it is.
+struct Exchange {
+    light: ElementLight,
+    energy: Energy,
+    stop: Stop,
+    shots: usize,
+    hemicubes: usize,
+    ambient: Rgb,
+}
+
+impl Exchange {
+    fn new(
+        world: World<'_>,
+        settings: &Settings,
+        mesh: &Mesh,
+        observer: &mut Observer<'_>,
+    ) -> Self {
+        let mut light = ElementLight::direct(mesh);
+        let mut shooting = Shooting::new(mesh, world, settings, &light);
+        let stop = shooting.run(settings, observer);
+        let ambient = if stop == Stop::Converged { Rgb::ZERO } else { shooting.ambient() };
+        light.settle(mesh, &shooting.received);
+        let Shooting { energy, shots, hemicubes, .. } = shooting;
+        Self { light, energy, stop, shots, hemicubes, ambient }
+    }
+
+    /// What a gathering vertex sees.
+    fn sources(&self, mesh: &Mesh) -> Sources {
+        let mut irradiance = self.light.indirect_at_vertices(mesh);
+        for (sum, vertex) in irradiance.iter_mut().zip(&mesh.vertices) {
+            *sum += vertex.direct.unwrap_or_default().irradiance;
+        }
+        Sources::new(mesh, &self.light, irradiance)
+    }
+
+    /// Gives all vertices the mean of the elements around them, and the ambient light.
+    fn spread(&self, mesh: &mut Mesh) {
+        let indirect = self.light.indirect_at_vertices(mesh);
+        for (vertex, indirect) in mesh.vertices.iter_mut().zip(indirect) {
+            vertex.indirect = Some(indirect + self.ambient);
+        }
     }
 }

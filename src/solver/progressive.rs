@@ -5,6 +5,8 @@
 //!
 //! [Cohen, Chen, Wallace and Greenberg 1988]: https://doi.org/10.1145/54852.378487
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 
 use super::direct_pass::World;
@@ -13,7 +15,7 @@ use super::transport::{Row, row};
 use super::{ElementLight, Observer, Phase, Stop};
 use crate::colour::Rgb;
 use crate::form_factor::hemicube::{DeltaFactors, Hemicube};
-use crate::mesh::{Mesh, PatchId};
+use crate::mesh::{ElementId, Mesh, PatchId};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
@@ -21,8 +23,8 @@ use crate::visibility::Occluders;
 /// Rows computed at once, ahead of their shots. A number of its own, so that threads change nothing.
 const BATCH: usize = 16;
 
-/// Entries of rows kept for later shots; beyond them, rows are made anew.
-const KEPT_ENTRIES: usize = 8_000_000;
+/// Links kept for later shots; beyond them, rows are made anew.
+const KEPT_LINKS: usize = 8_000_000;
 
 /// The state of a solution by shooting.
 pub(super) struct Shooting<'a> {
@@ -32,8 +34,12 @@ pub(super) struct Shooting<'a> {
     delta: DeltaFactors,
     rows: Vec<Option<Row>>,
     kept: usize,
-    /// By patch: radiosity received and not yet shot, W/m².
+    /// By patch: its elements, parents before their children.
+    trees: Vec<Vec<ElementId>>,
+    /// By patch: mean radiosity received and not yet shot, W/m².
     unshot: Vec<Rgb>,
+    /// By element: the irradiance received at that level and not yet shot, W/m².
+    pending: Vec<Rgb>,
     /// By element: irradiance by reflected light received at that level, W/m².
     pub(super) received: Vec<Rgb>,
     pub(super) energy: Energy,
@@ -58,6 +64,8 @@ impl<'a> Shooting<'a> {
             delta: DeltaFactors::new(settings.hemicube_resolution as usize),
             rows: vec![None; mesh.patches.len()],
             kept: 0,
+            trees: mesh.trees(),
+            pending: leaves_only(mesh, &light.direct),
             unshot: mesh.patches.iter().map(|patch| patch.reflectance * direct(patch)).collect(),
             received: vec![Rgb::ZERO; mesh.elements.len()],
             energy: Energy::default(),
@@ -124,19 +132,21 @@ impl<'a> Shooting<'a> {
 
     /// Sends the unshot light of a patch to all elements it sees.
     fn shoot(&mut self, shooter: PatchId) {
-        let radiosity = std::mem::take(&mut self.unshot[shooter.index()]);
+        let patch = &self.mesh[shooter];
+        let power = std::mem::take(&mut self.unshot[shooter.index()]) * patch.area;
+        let radiosity = self.take_pending(shooter);
         let row = self.rows[shooter.index()].take().unwrap_or_default();
-        let mut absorbed = Rgb::ZERO;
-        for &(element, exchange) in &row.entries {
-            let receiver = self.mesh[element].patch;
+        let scale = conserve(power * (1.0 - row.escaped - row.on_backs), &row, &radiosity);
+        for link in &row.links {
+            let receiver = self.mesh[link.receiver].patch;
             let patch = &self.mesh[receiver];
-            let power = radiosity * exchange;
-            self.received[element.index()] += power / self.mesh[element].area;
+            let power = scale * radiosity[&link.source] * link.exchange;
+            let irradiance = power / self.mesh[link.receiver].area;
+            self.received[link.receiver.index()] += irradiance;
+            self.pending[link.receiver.index()] += irradiance;
             self.unshot[receiver.index()] += patch.reflectance * power / patch.area;
-            absorbed += (Rgb::ONE - patch.reflectance) * power;
+            self.energy.absorbed += (Rgb::ONE - patch.reflectance) * power;
         }
-        let power = radiosity * self.mesh[shooter].area;
-        self.energy.absorbed += absorbed;
         self.energy.escaped += power * row.escaped;
         self.energy.on_backs += power * row.on_backs;
         self.energy.unshot = self.unshot_power();
@@ -144,9 +154,34 @@ impl<'a> Shooting<'a> {
         self.shots += 1;
     }
 
+    /// The unshot radiosities of a patch's elements, all levels settled, W/m²; afterwards there are none.
+    fn take_pending(&mut self, patch: PatchId) -> BTreeMap<ElementId, Rgb> {
+        let reflectance = self.mesh[patch].reflectance;
+        let tree = &self.trees[patch.index()];
+        let mut light: BTreeMap<ElementId, Rgb> = BTreeMap::new();
+        for &element in tree {
+            *light.entry(element).or_default() +=
+                std::mem::take(&mut self.pending[element.index()]);
+            for &child in &self.mesh[element].children {
+                light.insert(child, light[&element]);
+            }
+        }
+        for &element in tree.iter().rev() {
+            let parts = &self.mesh[element].children;
+            if !parts.is_empty() {
+                let area = self.mesh[element].area;
+                let mean =
+                    parts.iter().map(|part| light[part] * (self.mesh[*part].area / area)).sum();
+                light.insert(element, mean);
+            }
+        }
+        light.values_mut().for_each(|light| *light *= reflectance);
+        light
+    }
+
     /// Computes the rows that are missing of some patches.
     fn prepare(&mut self, patches: &[PatchId]) {
-        if self.kept > KEPT_ENTRIES {
+        if self.kept > KEPT_LINKS {
             self.rows.fill(None);
             self.kept = 0;
         }
@@ -163,7 +198,7 @@ impl<'a> Shooting<'a> {
             .collect();
         self.hemicubes += rows.len();
         for (patch, row) in missing.into_iter().zip(rows) {
-            self.kept += row.entries.len();
+            self.kept += row.links.len();
             self.rows[patch.index()] = Some(row);
         }
     }
@@ -195,4 +230,22 @@ impl<'a> Shooting<'a> {
             self.mesh.patches.iter().map(|patch| patch.reflectance * (patch.area / area)).sum();
         self.unshot_power() / area / (Rgb::ONE - reflectance)
     }
+}
+
+/// The values of leaves, zero for all others.
+fn leaves_only(mesh: &Mesh, values: &[Rgb]) -> Vec<Rgb> {
+    let leaf = |(element, &value): (&crate::mesh::Element, &Rgb)| {
+        if element.is_leaf() { value } else { Rgb::ZERO }
+    };
+    mesh.elements.iter().zip(values).map(leaf).collect()
+}
+
+/// Factors by which what the links of a row carry becomes the `power` that should arrive, W.
+///
+/// Elements of a shooter near others see more or less of them than the whole does; no light may be lost by that, or come
+/// from nowhere.
+fn conserve(power: Rgb, row: &Row, radiosity: &BTreeMap<ElementId, Rgb>) -> Rgb {
+    let carried: Rgb = row.links.iter().map(|link| radiosity[&link.source] * link.exchange).sum();
+    let scale = Rgb::select(carried.cmpgt(Rgb::ZERO), power / carried, Rgb::ONE);
+    scale.clamp(Rgb::splat(0.8), Rgb::splat(1.25))
 }

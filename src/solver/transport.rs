@@ -1,9 +1,11 @@
 //! How the light that a patch shoots arrives on the elements.
 //!
 //! A hemicube over the patch's centre tells what sees it and how much of each; the amounts are exact form factors,
-//! taken from the receiving element to the whole shooting polygon, so that neighbours are right at any distance.
+//! from points of the smaller to the whole of the larger of two polygons. Far apart, patches
+//! exchange light as wholes; near each other, their elements do, since light that enters a
+//! narrow gap at its edge must not come out in its middle.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use smallvec::SmallVec;
 
 use crate::form_factor::contour::point_to_polygon;
@@ -12,24 +14,37 @@ use crate::mesh::{ElementId, Mesh, PatchId};
 use crate::surface::Surfaces;
 use crate::surface::polygon::centroid;
 
-/// Receivers nearer than this many of their own and the shooter's sizes are taken in parts.
-const NEAR: f64 = 2.5;
+/// Elements nearer to each other than this many of their sizes exchange light by their parts.
+const NEAR: f64 = 2.0;
 
-/// Receivers smaller than this share of the shooter's size are not taken in parts.
-const FINE: f64 = 0.3;
+/// What is nearer to an element's centre than this share of its size is too close for the centre to see for all of it.
+const CLOSE: f64 = 0.4;
+
+/// An element looks by its parts if more than this share of its view is close.
+const CLOSE_SHARE: f64 = 0.05;
 
 /// Where the light of one patch goes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Row {
-    /// Elements and the form factors towards them, times the shooter's area, m².
-    pub(super) entries: Vec<(ElementId, f64)>,
+    pub(super) links: Vec<Link>,
     /// Share of the light that meets nothing.
     pub(super) escaped: f64,
     /// Share of the light that meets the black backs of surfaces.
     pub(super) on_backs: f64,
 }
 
+/// An exchange of light between two elements.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Link {
+    pub(super) source: ElementId,
+    pub(super) receiver: ElementId,
+    /// Form factor from source to receiver times the source's area, m².
+    pub(super) exchange: f64,
+}
+
 /// The row of one patch.
+///
+/// Where something is so close that the patch's centre cannot see for all of it, its parts look for themselves.
 pub(super) fn row(
     mesh: &Mesh,
     surfaces: &Surfaces,
@@ -37,14 +52,25 @@ pub(super) fn row(
     shooter: PatchId,
 ) -> Row {
     let patch = &mesh[shooter];
-    let eye = patch.corners.iter().sum::<DVec3>() / patch.corners.len() as f64;
-    let sights = hemicube.look(&mesh.patches, (eye, patch.normal), turn(shooter.index()));
-    let mut row = Row { escaped: hemicube.escaping(), ..Row::default() };
-    for sight in sights {
-        if sight.front {
-            receive(mesh, surfaces, hemicube, (shooter, sight), &mut row.entries);
-        } else {
-            row.on_backs += sight.delta;
+    let mut row = Row::default();
+    let mut open = vec![patch.root];
+    while let Some(source) = open.pop() {
+        let place = Place::new(mesh, surfaces, source);
+        let eye = (place.centre, place.normal);
+        let sights = hemicube.look(&mesh.patches, eye, turn(source.index()));
+        let parts = &mesh[source].children;
+        if !parts.is_empty() && hemicube.share_within(CLOSE * place.size) > CLOSE_SHARE {
+            open.extend_from_slice(parts);
+            continue;
+        }
+        let share = mesh[source].area / patch.area;
+        row.escaped += hemicube.escaping() * share;
+        for sight in sights {
+            if sight.front {
+                Linking { mesh, surfaces, hemicube, sight }.link(source, &mut row.links);
+            } else {
+                row.on_backs += sight.delta * share;
+            }
         }
     }
     row
@@ -56,56 +82,91 @@ pub(super) fn turn(index: usize) -> f64 {
     (index as f64 * GOLDEN).fract() * std::f64::consts::FRAC_PI_2
 }
 
-/// Adds what a patch in sight receives, on elements fine enough for their distance.
-fn receive(
-    mesh: &Mesh,
-    surfaces: &Surfaces,
-    hemicube: &mut Hemicube<'_>,
-    (shooter, sight): (PatchId, Sight),
-    entries: &mut Vec<(ElementId, f64)>,
-) {
-    let patch = &mesh[shooter];
-    let from = patch.corners.iter().sum::<DVec3>() / patch.corners.len() as f64;
-    let size = patch.area.sqrt();
-    let plane = &surfaces.list[mesh[sight.patch].surface as usize].plane;
-    let mut open: SmallVec<[ElementId; 32]> = SmallVec::new();
-    open.push(mesh[sight.patch].root);
-    while let Some(receiver) = open.pop() {
-        let element = &mesh[receiver];
-        let outline = mesh.outline(receiver);
-        let own = element.area.sqrt();
-        let near = plane.lift(centroid(&outline)).distance(from) < NEAR * (own + size);
-        if near && !element.is_leaf() && own > FINE * size {
-            open.extend(element.children.iter().copied());
-            continue;
+/// Finds the links between a shooter and a patch that it sees.
+struct Linking<'a, 'b> {
+    mesh: &'a Mesh,
+    surfaces: &'a Surfaces,
+    hemicube: &'a mut Hemicube<'b>,
+    sight: Sight,
+}
+
+/// An element in space.
+struct Place {
+    element: ElementId,
+    corners: SmallVec<[DVec3; 8]>,
+    centre: DVec3,
+    normal: DVec3,
+    size: f64,
+}
+
+impl Linking<'_, '_> {
+    /// Links the elements of the patch in sight with those under `source`, fine enough for their distance.
+    fn link(&mut self, source: ElementId, links: &mut Vec<Link>) {
+        let mut open: SmallVec<[(ElementId, ElementId); 32]> = SmallVec::new();
+        open.push((source, self.mesh[self.sight.patch].root));
+        while let Some((source, receiver)) = open.pop() {
+            let (from, to) = (self.place(source), self.place(receiver));
+            let near = from.centre.distance(to.centre) < NEAR * (from.size + to.size);
+            let (sources, receivers) = (&self.mesh[source].children, &self.mesh[receiver].children);
+            if near && !receivers.is_empty() && (to.size >= from.size || sources.is_empty()) {
+                open.extend(receivers.iter().map(|&part| (source, part)));
+            } else if near && !sources.is_empty() {
+                open.extend(sources.iter().map(|&part| (part, receiver)));
+            } else {
+                let exchange = self.exchange(&from, &to, near);
+                if exchange > 0.0 {
+                    links.push(Link { source, receiver, exchange });
+                }
+            }
         }
-        let visible = if sight.visible < 1.0 {
-            let corners: SmallVec<[DVec3; 8]> = outline.iter().map(|&p| plane.lift(p)).collect();
-            hemicube.visible_share(sight.patch, &corners, plane.normal)
-        } else {
-            1.0
+    }
+
+    /// Visible form factor times area, m²: by reciprocity the same from source to receiver and back.
+    fn exchange(&mut self, source: &Place, receiver: &Place, near: bool) -> f64 {
+        let (small, large) =
+            if source.size < receiver.size { (source, receiver) } else { (receiver, source) };
+        let see = |point: &DVec3| {
+            let in_front = (*point - large.corners[0]).dot(large.normal) > 0.0;
+            if in_front { point_to_polygon(*point, small.normal, &large.corners) } else { 0.0 }
         };
-        if visible > 0.0 {
-            let see = |place: DVec2| {
-                let place = plane.lift(place);
-                let in_front = (place - patch.corners[0]).dot(patch.normal) > 0.0;
-                if in_front { point_to_polygon(place, plane.normal, &patch.corners) } else { 0.0 }
-            };
-            let places =
-                if near { parts(&outline) } else { SmallVec::from_elem(centroid(&outline), 1) };
-            let factor = places.iter().map(|&place| see(place)).sum::<f64>() / places.len() as f64;
-            entries.push((receiver, factor * visible * element.area));
+        let points = if near { parts(small) } else { SmallVec::from_elem(small.centre, 1) };
+        let factor = points.iter().map(see).sum::<f64>() / points.len() as f64;
+        if factor == 0.0 {
+            return 0.0;
+        }
+        let visible = match self.sight.visible {
+            1.0 => 1.0,
+            visible if self.mesh[self.sight.patch].root == receiver.element => visible,
+            _ => self.hemicube.visible_share(self.sight.patch, &receiver.corners, receiver.normal),
+        };
+        factor * visible * self.mesh[small.element].area
+    }
+
+    fn place(&self, element: ElementId) -> Place {
+        Place::new(self.mesh, self.surfaces, element)
+    }
+}
+
+impl Place {
+    fn new(mesh: &Mesh, surfaces: &Surfaces, element: ElementId) -> Self {
+        let plane = &surfaces.list[mesh.surface_of(element)].plane;
+        let outline = mesh.outline(element);
+        Self {
+            element,
+            corners: outline.iter().map(|&p| plane.lift(p)).collect(),
+            centre: plane.lift(centroid(&outline)),
+            normal: plane.normal,
+            size: mesh[element].area.sqrt(),
         }
     }
 }
 
-/// Places that stand for equal parts of a polygon: a 3 × 3 grid, or a point for each corner.
-fn parts(outline: &[DVec2]) -> SmallVec<[DVec2; 9]> {
+/// Points that stand for equal parts of an element: a 3 × 3 grid, or one for each corner.
+fn parts(place: &Place) -> SmallVec<[DVec3; 9]> {
     const AT: [f64; 3] = [1.0 / 6.0, 0.5, 5.0 / 6.0];
-    if let &[a, b, c, d] = outline {
+    if let &[a, b, c, d] = place.corners.as_slice() {
         let at = |s: f64, t: f64| a.lerp(b, s).lerp(d.lerp(c, s), t);
         return AT.iter().flat_map(|&s| AT.iter().map(move |&t| at(s, t))).collect();
     }
-    let middle = centroid(outline);
-    outline.iter().map(|corner| corner.lerp(middle, 0.5)).collect()
+    place.corners.iter().map(|corner| corner.lerp(place.centre, 0.5)).collect()
 }

@@ -122,6 +122,13 @@ impl<'a> Hemicube<'a> {
         self.glimpse(corners)
     }
 
+    /// Sum of the delta factors of cells that see something not deeper than `depth`, m.
+    pub fn share_within(&self, depth: f64) -> f64 {
+        let nearness = (1.0 / depth) as f32;
+        let cells = self.depth.iter().zip(self.delta.cells());
+        cells.filter(|(cell, _)| **cell > nearness).map(|(_, &cell)| f64::from(cell)).sum()
+    }
+
     /// Sum of the delta factors of cells that see nothing.
     pub fn escaping(&self) -> f64 {
         let cells = self.item.iter().zip(self.delta.cells());

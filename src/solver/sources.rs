@@ -1,0 +1,125 @@
+//! What the elements reflect, as a gathering vertex sees it: finer the nearer it looks.
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
+use super::ElementLight;
+use crate::colour::Rgb;
+use crate::mesh::{ElementId, Mesh, PatchId};
+use crate::refine::strength;
+use crate::surface::Surfaces;
+
+/// Reflected radiosities, W/m², emission not included.
+#[derive(Clone, Debug)]
+pub(super) struct Sources {
+    /// Mean over each element.
+    mean: Vec<Rgb>,
+    /// How far the radiosity within an element is from its mean.
+    spread: Vec<f64>,
+    /// Irradiance of vertices, W/m².
+    irradiance: Vec<Rgb>,
+}
+
+/// A piece of an element, with the radiosities of its corners.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    pub(super) corners: SmallVec<[DVec3; 4]>,
+    light: SmallVec<[Rgb; 4]>,
+}
+
+impl Sources {
+    /// From the means over elements, and irradiances of vertices that need only be right in how they vary.
+    pub(super) fn new(mesh: &Mesh, light: &ElementLight, irradiance: Vec<Rgb>) -> Self {
+        let mean: Vec<Rgb> = mesh
+            .elements
+            .iter()
+            .zip(light.direct.iter().zip(&light.indirect))
+            .map(|(element, (direct, indirect))| {
+                mesh[element.patch].reflectance * (direct + indirect)
+            })
+            .collect();
+        let mut sources = Self { spread: vec![0.0; mean.len()], mean, irradiance };
+        for index in (0..mesh.elements.len()).rev() {
+            sources.spread[index] = sources.deviation(mesh, ElementId(index as u32));
+        }
+        sources
+    }
+
+    fn deviation(&self, mesh: &Mesh, id: ElementId) -> f64 {
+        let (element, mean) = (&mesh[id], self.mean[id.index()]);
+        if element.is_leaf() {
+            let corners = self.corners(mesh, id);
+            return corners.iter().map(|&c| strength(c - mean)).fold(0.0, f64::max);
+        }
+        let part =
+            |part: &ElementId| strength(self.mean[part.index()] - mean) + self.spread[part.index()];
+        element.children.iter().map(part).fold(0.0, f64::max)
+    }
+
+    fn corners(&self, mesh: &Mesh, element: ElementId) -> SmallVec<[Rgb; 4]> {
+        let reflectance = mesh[mesh[element].patch].reflectance;
+        let corners = mesh[element].corners.iter();
+        corners.map(|v| reflectance * self.irradiance[v.index()]).collect()
+    }
+
+    /// The parts of an element, none if it was whole when the sources were made.
+    pub(super) fn parts<'m>(&self, mesh: &'m Mesh, element: ElementId) -> &'m [ElementId] {
+        let children = &mesh[element].children;
+        if children.iter().all(|child| child.index() < self.mean.len()) { children } else { &[] }
+    }
+
+    /// Mean over an element, W/m².
+    pub(super) fn mean(&self, element: ElementId) -> Rgb {
+        self.mean[element.index()]
+    }
+
+    /// How far the radiosity within an element is from its mean, W/m².
+    pub(super) fn spread(&self, element: ElementId) -> f64 {
+        self.spread[element.index()]
+    }
+
+    /// A leaf as a piece whose mean is the leaf's; the corners say how light varies over it.
+    pub(super) fn piece(&self, mesh: &Mesh, surfaces: &Surfaces, leaf: ElementId) -> Piece {
+        let plane = &surfaces.list[mesh.surface_of(leaf)].plane;
+        let light = self.corners(mesh, leaf);
+        let shift = self.mean(leaf) - light.iter().sum::<Rgb>() / light.len() as f64;
+        Piece {
+            corners: mesh[leaf].corners.iter().map(|&v| plane.lift(mesh[v].position)).collect(),
+            light: light.iter().map(|&corner| (corner + shift).max(Rgb::ZERO)).collect(),
+        }
+    }
+
+    /// How much the light that a patch shows has changed since `before`, at most, W/m².
+    pub(super) fn change(&self, mesh: &Mesh, before: &Self, patch: PatchId) -> f64 {
+        let root = mesh[patch].root;
+        let spread = (self.spread(root) - before.spread(root)).abs();
+        strength(self.mean(root) - before.mean(root)) + spread
+    }
+}
+
+impl Piece {
+    /// Mean radiosity, W/m².
+    pub(super) fn mean(&self) -> Rgb {
+        self.light.iter().sum::<Rgb>() / self.light.len() as f64
+    }
+
+    /// How far the corners are from the mean, W/m².
+    pub(super) fn spread(&self) -> f64 {
+        let mean = self.mean();
+        self.light.iter().map(|&corner| strength(corner - mean)).fold(0.0, f64::max)
+    }
+
+    /// Its parts between each corner, the middles of the edges there, and its centre.
+    pub(super) fn parts(&self) -> SmallVec<[Self; 4]> {
+        let n = self.corners.len();
+        let centre = (self.corners.iter().sum::<DVec3>() / n as f64, self.mean());
+        let at = |k: usize| (self.corners[k % n], self.light[k % n]);
+        let half = |a: (DVec3, Rgb), b: (DVec3, Rgb)| ((a.0 + b.0) * 0.5, (a.1 + b.1) * 0.5);
+        let part = |k: usize| {
+            let outline = [at(k), half(at(k), at(k + 1)), centre, half(at(k + n - 1), at(k))];
+            let (corners, light) = outline.into_iter().unzip();
+            Self { corners, light }
+        };
+        (0..n).map(part).collect()
+    }
+}
