@@ -9,7 +9,7 @@
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// Largest error of interpolation across an element, as a share of the radiosity around it
-    /// (0.001..=1; default 0.03). Smaller means more elements.
+    /// (0.001..=1; default 0.02). Smaller means more elements.
     pub tolerance: f64,
     /// Shortest side that refinement may give an element (default 1/800 of the scene).
     /// Shadows finer than this blur.
@@ -44,7 +44,7 @@ impl Settings {
     /// The default: right to about one per cent of a room's mean radiosity.
     pub fn medium() -> Self {
         Self {
-            tolerance: 0.03,
+            tolerance: 0.02,
             min_element: Length::OfScene(1.0 / 800.0),
             max_level: 7,
             patch_size: Length::OfScene(1.0 / 14.0),

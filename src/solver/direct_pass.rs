@@ -34,6 +34,15 @@ pub(super) fn light(world: World<'_>, mesh: &mut Mesh) {
     }
 }
 
+/// Evaluates direct light at the corners and in the middle of all leaves, as their means need.
+pub(super) fn light_leaves(world: World<'_>, mesh: &mut Mesh) {
+    let leaves: Vec<ElementId> = mesh.leaves().collect();
+    for leaf in leaves {
+        mesh.middle(leaf);
+    }
+    light(world, mesh);
+}
+
 /// Refines the mesh until direct light can be interpolated; leaves a uniform mesh as it is.
 pub(super) fn refine(
     world: World<'_>,

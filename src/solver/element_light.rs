@@ -64,7 +64,7 @@ fn pull(mesh: &Mesh, leaf: impl Fn(ElementId) -> Rgb) -> Vec<Rgb> {
     values
 }
 
-/// Mean direct irradiance of a leaf: by Simpson's rule where it was judged, from its corners elsewhere.
+/// Mean direct irradiance of a leaf: by Simpson's rule.
 fn mean_direct(mesh: &Mesh, element: ElementId) -> Rgb {
     let at = |v: crate::mesh::VertexId| mesh[v].direct.unwrap_or_default().irradiance;
     let corners = &mesh[element].corners;
@@ -75,7 +75,7 @@ fn mean_direct(mesh: &Mesh, element: ElementId) -> Rgb {
         Some(middle) if corners.len() == 4 => {
             (mean(corners) + mean(&middle.edges) * 4.0 + at(middle.centre) * 4.0) / 9.0
         }
-        // The rule of degree two on triangles; on other polygons the same blend is no worse than the corners.
+        // The rule of degree two on triangles; other polygons are rare and not far from round.
         Some(middle) => mean(&middle.edges),
         None => mean(corners),
     }

@@ -122,6 +122,7 @@ pub fn solve(
     let world = World { surfaces, occluders: &occluders, lamps: &lamps };
 
     direct_pass::refine(world, settings, &mut mesh, &mut observer);
+    direct_pass::light_leaves(world, &mut mesh);
     let mut exchange = Exchange::new(world, settings, &mesh, &mut observer);
     let gathered = if exchange.stop == Stop::Converged {
         gather(world, settings, (&mut mesh, &mut exchange), &mut observer)
@@ -147,7 +148,7 @@ fn gather(
     let mut gatherer = Gatherer::new(world, exchange.sources(mesh), fine);
     for round in 1..=ROUNDS {
         indirect_pass::refine((settings, &oracle), &mut gatherer, mesh, observer);
-        direct_pass::light(world, mesh);
+        direct_pass::light_leaves(world, mesh);
         if round < ROUNDS && observer.flow.is_continue() {
             let next = Exchange::new(world, settings, mesh, observer);
             if next.stop == Stop::Converged {
