@@ -71,9 +71,8 @@ fn sides_of_edges(mesh: &TriMesh) -> HashMap<[[u64; 3]; 2], Vec<DVec3>> {
 }
 
 /// Asserts that no vertex of a surface lies inside an edge of it, nor any at all inside an edge of its outline,
-/// and that vertices at one place are at exactly one place.
-fn assert_conforming(mesh: &TriMesh, extent: f64) {
-    let hair = 1e-6 * extent;
+/// and that vertices within a `hair`, m, are at exactly one place.
+fn assert_conforming(mesh: &TriMesh, extent: f64, hair: f64) {
     let grid = Grid::new(mesh, extent / 60.0);
     let sides = sides_of_edges(mesh);
     for &triangle in &mesh.triangles {
@@ -117,17 +116,17 @@ fn assert_whole(mesh: &TriMesh, scene: &Scene) {
     assert!((share - 1.0).abs() < 1e-6, "{share} times the scene's area");
 }
 
-fn assert_sound(scene: &Scene) {
+fn assert_sound(scene: &Scene, hair: f64) {
     let mesh = mesh_of(scene, &coarse());
     assert_sane(&mesh);
     assert_whole(&mesh, scene);
-    assert_conforming(&mesh, scene.extent());
+    assert_conforming(&mesh, scene.extent(), hair * scene.extent());
 }
 
 #[test]
 fn shipped_scenes_come_out_whole_and_without_cracks() {
     for name in ["cornell-box.obj", "two-rooms.obj", "blocker.obj", "office.obj"] {
-        assert_sound(&shipped(name));
+        assert_sound(&shipped(name), 1e-6);
     }
 }
 
@@ -142,7 +141,8 @@ proptest! {
 
     #[test]
     fn boxes_on_a_floor_come_out_whole_and_without_cracks(blocks in prop::collection::vec(block(), 1..5)) {
-        assert_sound(&furnished_room(&blocks));
+        // Less than a tolerance: lines of any two boxes may pass each other a little beyond it.
+        assert_sound(&furnished_room(&blocks), 1e-7);
     }
 }
 
@@ -243,7 +243,7 @@ fn materials_of(mesh: &TriMesh) -> Vec<usize> {
 #[test]
 fn facets_of_a_curved_surface_are_equally_bright_where_they_meet_and_not_across_its_rim() {
     let mesh = mesh_of(&column(|_| 0), &coarse());
-    assert_conforming(&mesh, 8.0);
+    assert_conforming(&mesh, 7.0, 1e-6);
     let mantle = materials_of(&mesh).iter().max().copied().unwrap();
     let materials = materials_of(&mesh);
     let same_normal = |a: usize, b: usize| mesh.normals[a].distance(mesh.normals[b]) < 1e-3;
