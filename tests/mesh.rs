@@ -87,7 +87,8 @@ proptest! {
         let surfaces = surfaces_of(&stage.scene);
         let mut mesh = Mesh::new(&surfaces, &coarse());
         for choice in choices {
-            let leaves: Vec<ElementId> = mesh.leaves().collect();
+            let leaves = mesh.leaves().filter(|&leaf| mesh.sides(leaf).into_iter().all(|s| s > 0.05));
+            let leaves: Vec<ElementId> = leaves.collect();
             let leaf = leaves[choice * (leaves.len() - 1) / 2];
             let halves = mesh[leaf].corners.len() == 4 && choice < 2;
             let split = if halves { Split::Halves(choice) } else { Split::Quarters };

@@ -19,6 +19,10 @@ pub(super) struct Sheet {
     pub(super) triangles: Vec<[u32; 3]>,
     /// True if the surface stands for a part of a curved one.
     pub(super) curved: bool,
+    /// Index into [`Surfaces::materials`].
+    pub(super) material: u32,
+    /// Diffuse reflectance without the texture's part.
+    pub(super) reflectance: Rgb,
 }
 
 /// What will be a vertex of the triangle mesh.
@@ -88,6 +92,8 @@ impl Sheet {
             triangles: tiles.iter().map(triangle).collect(),
             corners: builder.finish(),
             curved: !surface.normals.is_empty(),
+            material: surface.material,
+            reflectance: surface.reflectance,
         }
     }
 }

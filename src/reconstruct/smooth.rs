@@ -10,7 +10,7 @@ use crate::surface::{Surface, polygon};
 /// Unit normals whose difference is no longer than this are one.
 const SAME: f64 = 1e-2;
 
-/// Gives corners of curved facets at one place with one normal the mean of their radiosities.
+/// Gives corners of curved facets of one paint, at one place and with one normal, the mean of their radiosities.
 pub(super) fn average_across_smooth_edges(sheets: &mut [Sheet]) {
     let mut meeting: HashMap<u32, Vec<(usize, usize)>> = HashMap::new();
     for (number, sheet) in sheets.iter().enumerate().filter(|(_, sheet)| sheet.curved) {
@@ -32,9 +32,11 @@ fn mean_of_alike(
     corners: &[(usize, usize)],
     (sheet, index): (usize, usize),
 ) -> crate::colour::Rgb {
-    let normal = sheets[sheet].corners[index].normal;
+    let (own, normal) = (&sheets[sheet], sheets[sheet].corners[index].normal);
+    let paint = |other: &Sheet| (other.material, other.reflectance);
     let alike = corners
         .iter()
+        .filter(|&&(sheet, _)| paint(&sheets[sheet]) == paint(own))
         .map(|&(sheet, index)| &sheets[sheet].corners[index])
         .filter(|corner| corner.normal.distance(normal) <= SAME);
     let (sum, count) = alike.fold((DVec3::ZERO, 0.0), |(s, n), c| (s + c.radiosity, n + 1.0));
