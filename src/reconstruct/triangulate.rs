@@ -54,10 +54,8 @@ pub(super) fn triangulate(loops: &[Vec<u32>], at: impl Fn(u32) -> DVec2) -> Vec<
         }
     }
     // Edges of leaves meet in shared places only, so none are in conflict.
-    let Ok(cdt) = ConstrainedDelaunayTriangulation::<Node>::try_bulk_load_cdt(nodes, edges, |_| ())
-    else {
-        return Vec::new();
-    };
+    let cdt = ConstrainedDelaunayTriangulation::try_bulk_load_cdt(nodes, edges, |_| ())
+        .expect("places have finite coordinates");
     tiles(&cdt, &owners)
 }
 

@@ -138,7 +138,7 @@ impl<'a> Gatherer<'a> {
             irradiance += visible
                 * if varies {
                     let piece = self.sources.piece(mesh, surfaces, source);
-                    self.from_piece((site, normal), (&piece, factor), DEEPEST)
+                    self.piece_light((site, normal), (&piece, factor), DEEPEST)
                 } else {
                     self.sources.mean(source) * factor
                 };
@@ -147,14 +147,14 @@ impl<'a> Gatherer<'a> {
     }
 
     /// Irradiance by a piece of a leaf with this form factor, divided while its variation matters.
-    fn from_piece(&self, eye: (DVec3, DVec3), (piece, factor): (&Piece, f64), depth: u32) -> Rgb {
+    fn piece_light(&self, eye: (DVec3, DVec3), (piece, factor): (&Piece, f64), depth: u32) -> Rgb {
         if depth == 0 || factor * piece.spread() <= self.fine {
             return piece.mean() * factor;
         }
         let parts = piece.parts();
         let lit = parts.iter().map(|part| {
             let factor = point_to_polygon(eye.0, eye.1, &part.corners);
-            self.from_piece(eye, (part, factor), depth - 1)
+            self.piece_light(eye, (part, factor), depth - 1)
         });
         lit.sum()
     }
