@@ -31,6 +31,8 @@ pub mod reconstruct;
 
 pub mod tone;
 
+pub mod export;
+
 pub use error::{Error, Result};
 pub use reconstruct::{TriMesh, reconstruct};
 pub use scene::{Scene, load};

@@ -4,6 +4,9 @@ use glam::{DVec2, Vec3};
 
 use crate::colour::Rgb;
 
+/// Largest reflectance a scene may hold in a channel: at 1, light in a closed room would never die out.
+pub const MAX_REFLECTANCE: f64 = 0.99;
+
 /// A diffuse material.
 #[derive(Clone, Debug)]
 pub struct Material {

@@ -4,20 +4,26 @@
 //! linear, emission is radiance, lights are in watts, texture coordinates have their transforms applied.
 
 mod camera;
+mod corners;
+mod gltf;
 mod light;
+mod load;
 mod material;
-
-use std::path::Path;
+mod notes;
+mod obj;
+mod polygon;
+mod repair;
+mod texture;
 
 use glam::{DVec2, DVec3, Vec3};
 use smallvec::SmallVec;
 
 use crate::colour::Rgb;
-use crate::error::Result;
 
 pub use camera::Camera;
 pub use light::Light;
-pub use material::{Material, Texture};
+pub use load::load;
+pub use material::{MAX_REFLECTANCE, Material, Texture};
 
 /// A scene of polygons, in metres.
 #[derive(Clone, Debug, Default)]
@@ -72,13 +78,33 @@ impl Default for LoadOptions {
     }
 }
 
-/// Reads an OBJ (with its MTL), glTF or GLB file.
-///
-/// # Errors
-/// When the file cannot be read or is not what its ending says; the message names the place.
-pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene> {
-    let _ = (path, options);
-    Ok(Scene::default())
+impl Scene {
+    /// Smallest and largest corner coordinates of all faces, m; `None` without faces.
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        let corners = self.faces.iter().flat_map(|face| &face.vertices);
+        corners
+            .map(|&vertex| self.positions[vertex as usize])
+            .map(|p| (p, p))
+            .reduce(|(low, high), (p, _)| (low.min(p), high.max(p)))
+    }
+
+    /// Diagonal of [`Self::bounds`], m; 0 without faces.
+    pub fn extent(&self) -> f64 {
+        self.bounds().map_or(0.0, |(low, high)| low.distance(high))
+    }
+
+    /// Indices of the faces whose material emits light.
+    pub fn emitters(&self) -> impl Iterator<Item = usize> {
+        self.faces.iter().enumerate().filter_map(|(index, face)| {
+            let emission = self.materials[face.material as usize].emission;
+            (emission.max_element() > 0.0).then_some(index)
+        })
+    }
+
+    /// True if some face or some light emits.
+    pub fn is_lit(&self) -> bool {
+        !self.lights.is_empty() || self.emitters().next().is_some()
+    }
 }
 
 impl Scene {

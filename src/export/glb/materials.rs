@@ -1,0 +1,101 @@
+//! Materials that show light as it is, with the pictures it falls on.
+
+use std::collections::BTreeMap;
+use std::io;
+
+use gltf_json::extensions::material::{Material as MaterialExtensions, Unlit};
+use gltf_json::image::MimeType;
+use gltf_json::material::{PbrMetallicRoughness, StrengthFactor};
+use gltf_json::texture::{Info, MagFilter, MinFilter, Sampler, WrappingMode};
+use gltf_json::validation::Checked;
+use gltf_json::{Image, Index, Material, Texture};
+
+use super::document::Document;
+use crate::export::group::Group;
+use crate::export::picture::{self, Coding};
+use crate::reconstruct::TriMesh;
+
+/// The pictures that a document holds already.
+#[derive(Debug, Default)]
+pub(super) struct Materials {
+    textures: BTreeMap<u32, Index<Texture>>,
+}
+
+impl Materials {
+    /// Adds the material of `group` and, the first time it is used, its picture.
+    pub(super) fn add(
+        &mut self,
+        document: &mut Document,
+        mesh: &TriMesh,
+        group: &Group,
+    ) -> io::Result<Index<Material>> {
+        let texture = match group.texture {
+            Some(texture) => Some(self.texture(document, mesh, texture)?),
+            None => None,
+        };
+        let pbr_metallic_roughness = PbrMetallicRoughness {
+            base_color_texture: texture.map(|index| Info {
+                index,
+                tex_coord: 0,
+                extensions: None,
+                extras: None,
+            }),
+            metallic_factor: StrengthFactor(0.0),
+            ..PbrMetallicRoughness::default()
+        };
+        Ok(document.root.push(Material {
+            name: Some(group.name.to_owned()),
+            pbr_metallic_roughness,
+            extensions: Some(MaterialExtensions {
+                unlit: Some(Unlit {}),
+                ..MaterialExtensions::default()
+            }),
+            ..Material::default()
+        }))
+    }
+
+    fn texture(
+        &mut self,
+        document: &mut Document,
+        mesh: &TriMesh,
+        number: u32,
+    ) -> io::Result<Index<Texture>> {
+        if let Some(&known) = self.textures.get(&number) {
+            return Ok(known);
+        }
+        let texture = &mesh.textures[number as usize];
+        let view = document.view(&picture::encoded(texture)?, None);
+        let name = (!texture.name.is_empty()).then(|| texture.name.clone());
+        let source = document.root.push(Image {
+            buffer_view: Some(view),
+            mime_type: Some(MimeType(Coding::of(texture).mime_type().to_owned())),
+            name: name.clone(),
+            uri: None,
+            extensions: None,
+            extras: None,
+        });
+        let sampler = document.root.push(sampler(texture.repeat));
+        let index = document.root.push(Texture {
+            name,
+            sampler: Some(sampler),
+            source,
+            extensions: None,
+            extras: None,
+        });
+        self.textures.insert(number, index);
+        Ok(index)
+    }
+}
+
+fn sampler(repeat: [bool; 2]) -> Sampler {
+    let [wrap_s, wrap_t] = repeat.map(|repeat| {
+        Checked::Valid(if repeat { WrappingMode::Repeat } else { WrappingMode::ClampToEdge })
+    });
+    Sampler {
+        mag_filter: Some(Checked::Valid(MagFilter::Linear)),
+        min_filter: Some(Checked::Valid(MinFilter::LinearMipmapLinear)),
+        wrap_s,
+        wrap_t,
+        ..Sampler::default()
+    }
+}

@@ -1,0 +1,95 @@
+//! GLB: one mesh, one primitive a material, shown as it is lit; and the way back.
+
+mod accessors;
+mod document;
+mod materials;
+mod read;
+mod record;
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+use gltf_json::mesh::{Mode, Primitive, Semantic};
+use gltf_json::scene::Scene;
+use gltf_json::validation::Checked;
+use gltf_json::{Asset, Mesh, Node};
+
+use super::group::{self, Group};
+use super::look::{Look, singles};
+use document::Document;
+use materials::Materials;
+use record::Record;
+
+pub use read::load_solved;
+
+/// Attribute with the radiosity, W/m² per channel; glTF puts an underscore before it.
+const RADIOSITY: &str = "RADIOSITY";
+
+/// Attribute with the mean of the picture under a vertex, only on textured primitives.
+const TEXTURE_MEAN: &str = "TEXTURE_MEAN";
+
+/// Writes a mesh that has triangles as GLB.
+pub(crate) fn write(look: &Look, out: &mut impl Write) -> io::Result<()> {
+    let mut document = Document::default();
+    let mut materials = Materials::default();
+    let mut primitives = Vec::new();
+    for group in group::by_material(look.mesh) {
+        let material = materials.add(&mut document, look.mesh, &group)?;
+        let mut primitive = primitive(&mut document, look, &group);
+        primitive.material = Some(material);
+        primitives.push(primitive);
+    }
+    add_scene(&mut document, primitives);
+    document.root.asset = Asset {
+        generator: Some(concat!("radiosity ", env!("CARGO_PKG_VERSION")).to_owned()),
+        extras: Some(Record::new(look).to_raw()?),
+        ..Asset::default()
+    };
+    document.root.extensions_used = vec!["KHR_materials_unlit".to_owned()];
+    document.write(out)
+}
+
+fn add_scene(document: &mut Document, primitives: Vec<Primitive>) {
+    let name = Some("radiosity".to_owned());
+    let root = &mut document.root;
+    let mesh = root.push(Mesh {
+        name: name.clone(),
+        primitives,
+        weights: None,
+        extensions: None,
+        extras: None,
+    });
+    let node = root.push(Node { name: name.clone(), mesh: Some(mesh), ..Node::default() });
+    let scene = Scene { name, nodes: vec![node], extensions: None, extras: None };
+    root.scene = Some(root.push(scene));
+}
+
+fn primitive(document: &mut Document, look: &Look, group: &Group) -> Primitive {
+    let mesh = look.mesh;
+    let vertices = || group.vertices.iter().map(|&vertex| vertex as usize);
+    let positions: Vec<_> = vertices().map(|v| singles(mesh.positions[v])).collect();
+    let normals: Vec<_> = vertices().map(|v| mesh.normals[v].to_array()).collect();
+    let radiosity: Vec<_> = vertices().map(|v| singles(mesh.radiosity[v])).collect();
+    let light = group.vertices.iter().map(|&vertex| look.light(vertex).to_array());
+    let mut attributes = BTreeMap::from([
+        (Semantic::Positions, document.positions(&positions)),
+        (Semantic::Normals, document.vectors(&normals)),
+        (Semantic::Colors(0), document.colours(light)),
+        (Semantic::Extras(RADIOSITY.to_owned()), document.vectors(&radiosity)),
+    ]);
+    if group.texture.is_some() {
+        let uvs: Vec<_> = vertices().map(|v| mesh.uvs[v].to_array()).collect();
+        let means: Vec<_> = vertices().map(|v| singles(mesh.texture_mean[v])).collect();
+        attributes.insert(Semantic::TexCoords(0), document.vectors(&uvs));
+        attributes.insert(Semantic::Extras(TEXTURE_MEAN.to_owned()), document.vectors(&means));
+    }
+    Primitive {
+        attributes: attributes.into_iter().map(|(key, to)| (Checked::Valid(key), to)).collect(),
+        indices: Some(document.indices(&group.triangles, group.vertices.len())),
+        material: None,
+        mode: Checked::Valid(Mode::Triangles),
+        targets: None,
+        extensions: None,
+        extras: None,
+    }
+}

@@ -1,0 +1,157 @@
+//! Reading a solved GLB again.
+
+use std::fs;
+use std::path::Path;
+
+use glam::{DVec3, Vec2, Vec3};
+use gltf_json::mesh::{Mode, Primitive, Semantic};
+use gltf_json::texture::WrappingMode;
+use gltf_json::validation::Checked;
+use gltf_json::{Node, Root};
+
+use super::accessors::Arrays;
+use super::record::Record;
+use super::{RADIOSITY, TEXTURE_MEAN};
+use crate::colour::Rgb;
+use crate::error::{Error, Result};
+use crate::export::{Stamp, picture};
+use crate::reconstruct::{Part, TriMesh};
+use crate::scene::Texture;
+
+const NO_RADIOSITY: &str = "carries no radiosity (attribute _RADIOSITY); `radiosity solve SCENE -o FILE.glb` makes such a file";
+
+type Outcome<T> = std::result::Result<T, String>;
+
+/// Reads a mesh and its stamp from a GLB that [`save`](crate::export::save) wrote.
+///
+/// # Errors
+/// When the file cannot be read, is no GLB, carries no `_RADIOSITY`, or was reshaped by another program.
+pub fn load_solved(path: &Path) -> Result<(TriMesh, Stamp)> {
+    let bytes = fs::read(path).map_err(Error::io(path))?;
+    read(&bytes).map_err(|message| Error::format(path, message))
+}
+
+fn read(bytes: &[u8]) -> Outcome<(TriMesh, Stamp)> {
+    let (json, binary) = chunks(bytes)?;
+    let root = Root::from_slice(json).map_err(|error| format!("no valid glTF: {error}"))?;
+    let arrays = Arrays { root: &root, binary };
+    let mut mesh = TriMesh::default();
+    for primitive in root.meshes.iter().flat_map(|mesh| &mesh.primitives) {
+        append(&mut mesh, &arrays, primitive)?;
+    }
+    mesh.textures = textures(&arrays)?;
+    if root.nodes.iter().any(is_moved) {
+        return Err("was rearranged by another program; write it anew with radiosity".to_owned());
+    }
+    if mesh.triangles.is_empty() {
+        return Err("holds no triangles".to_owned());
+    }
+    let extras = root.asset.extras.as_ref();
+    let record = extras.and_then(|extras| serde_json::from_str::<Record>(extras.get()).ok());
+    Ok((mesh, record.map(Record::into_stamp).unwrap_or_default()))
+}
+
+fn is_moved(node: &Node) -> bool {
+    node.matrix.is_some()
+        || node.translation.is_some()
+        || node.rotation.is_some()
+        || node.scale.is_some()
+}
+
+/// The JSON and the binary chunk.
+fn chunks(bytes: &[u8]) -> Outcome<(&[u8], &[u8])> {
+    // The reader below subtracts the header from the length that the file states.
+    let stated = bytes.get(8..12).and_then(|field| field.try_into().ok()).map(u32::from_le_bytes);
+    if stated.is_none_or(|length| length < 12) {
+        return Err("no GLB file".to_owned());
+    }
+    let glb = gltf::Glb::from_slice(bytes).map_err(|error| format!("no GLB file: {error}"))?;
+    match (glb.json, glb.bin) {
+        (std::borrow::Cow::Borrowed(json), Some(std::borrow::Cow::Borrowed(binary))) => {
+            Ok((json, binary))
+        }
+        _ => Err("a GLB without binary data".to_owned()),
+    }
+}
+
+/// Adds one primitive as one part.
+fn append(mesh: &mut TriMesh, arrays: &Arrays, primitive: &Primitive) -> Outcome<()> {
+    if primitive.mode != Checked::Valid(Mode::Triangles) {
+        return Err("holds points or lines, which radiosity does not write".to_owned());
+    }
+    let first = mesh.positions.len();
+    append_vertices(mesh, arrays, primitive)?;
+    let count = mesh.positions.len() - first;
+    let offset =
+        u32::try_from(mesh.positions.len()).map_err(|_| "holds too many vertices")? - count as u32;
+
+    let indices = primitive.indices.ok_or("a primitive has no indices")?;
+    let triangles = arrays.triangles(indices, count)?;
+    let start = mesh.triangles.len();
+    mesh.triangles.extend(triangles.iter().map(|corners| corners.map(|corner| offset + corner)));
+    let (name, texture) = material(arrays, primitive)?;
+    mesh.parts.push(Part { name, triangles: start..mesh.triangles.len(), texture });
+    Ok(())
+}
+
+fn append_vertices(mesh: &mut TriMesh, arrays: &Arrays, primitive: &Primitive) -> Outcome<()> {
+    let find = |semantic: Semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
+    let extra = |name: &str| find(Semantic::Extras(name.to_owned()));
+    let vectors = |index| -> Outcome<Vec<Vec3>> {
+        Ok(arrays.vectors::<3>(index)?.into_iter().map(Vec3::from).collect())
+    };
+    let doubles = |index| -> Outcome<Vec<DVec3>> {
+        Ok(vectors(index)?.into_iter().map(Vec3::as_dvec3).collect())
+    };
+    let radiosity = extra(RADIOSITY).ok_or(NO_RADIOSITY)?;
+    let positions = doubles(find(Semantic::Positions).ok_or("a primitive has no POSITION")?)?;
+    let count = positions.len();
+    let normals = vectors(find(Semantic::Normals).ok_or("a primitive has no NORMAL")?)?;
+    let radiosity = doubles(radiosity)?;
+    let uvs = match find(Semantic::TexCoords(0)) {
+        Some(index) => arrays.vectors::<2>(index)?.into_iter().map(Vec2::from).collect(),
+        None => vec![Vec2::ZERO; count],
+    };
+    let means = match extra(TEXTURE_MEAN) {
+        Some(index) => doubles(index)?,
+        None => vec![Rgb::ONE; count],
+    };
+    if [normals.len(), radiosity.len(), uvs.len(), means.len()] != [count; 4] {
+        return Err("a primitive's attributes differ in length".to_owned());
+    }
+    mesh.positions.extend(positions);
+    mesh.normals.extend(normals);
+    mesh.radiosity.extend(radiosity);
+    mesh.uvs.extend(uvs);
+    mesh.texture_mean.extend(means);
+    Ok(())
+}
+
+/// The name of a primitive's material, and its texture.
+fn material(arrays: &Arrays, primitive: &Primitive) -> Outcome<(String, Option<u32>)> {
+    let Some(index) = primitive.material else {
+        return Ok((String::new(), None));
+    };
+    let materials = &arrays.root.materials;
+    let material = materials.get(index.value()).ok_or("a primitive's material is missing")?;
+    let texture = material.pbr_metallic_roughness.base_color_texture.as_ref();
+    let texture = texture.map(|info| info.index.value());
+    if texture.is_some_and(|texture| texture >= arrays.root.textures.len()) {
+        return Err("a material's texture is missing".to_owned());
+    }
+    Ok((material.name.clone().unwrap_or_default(), texture.map(|texture| texture as u32)))
+}
+
+fn textures(arrays: &Arrays) -> Outcome<Vec<Texture>> {
+    arrays.root.textures.iter().map(|texture| read_texture(arrays, texture)).collect()
+}
+
+fn read_texture(arrays: &Arrays, texture: &gltf_json::Texture) -> Outcome<Texture> {
+    let root = arrays.root;
+    let image = root.images.get(texture.source.value()).ok_or("a texture has no image")?;
+    let view = image.buffer_view.ok_or("an image is outside of the file")?;
+    let sampler = texture.sampler.and_then(|index| root.samplers.get(index.value()));
+    let repeats = |mode| mode != Checked::Valid(WrappingMode::ClampToEdge);
+    let repeat = sampler.map_or([true; 2], |s| [repeats(s.wrap_s), repeats(s.wrap_t)]);
+    picture::decoded(image.name.as_deref().unwrap_or_default(), arrays.view(view)?, repeat)
+}

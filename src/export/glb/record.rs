@@ -1,0 +1,60 @@
+//! What a solved GLB says about itself, in `asset.extras`.
+
+use gltf_json::extras::RawValue;
+use serde::{Deserialize, Serialize};
+
+use crate::export::Stamp;
+use crate::export::look::{Look, TONE_CURVE};
+use crate::tone::{Exposure, exposure_value};
+
+/// The contents of `asset.extras`.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Record {
+    version: String,
+    /// Of `_RADIOSITY`.
+    unit: String,
+    exposure: ExposureRecord,
+    tone_curve: String,
+    settings: serde_json::Value,
+    finished: bool,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct ExposureRecord {
+    automatic: bool,
+    /// Exposure value at ISO 100, chosen or found.
+    ev: f64,
+    /// Factor on radiosity before the tone curve, m²/W.
+    scale: f64,
+}
+
+impl Record {
+    pub(super) fn new(look: &Look) -> Self {
+        let (automatic, ev) = match look.stamp.exposure {
+            Exposure::Automatic => (true, exposure_value(look.scale)),
+            Exposure::Ev(ev) => (false, ev),
+        };
+        Self {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            unit: "W/m^2".to_owned(),
+            exposure: ExposureRecord { automatic, ev, scale: look.scale },
+            tone_curve: TONE_CURVE.to_owned(),
+            settings: look.stamp.settings.clone(),
+            finished: look.stamp.finished,
+        }
+    }
+
+    pub(super) fn to_raw(&self) -> serde_json::Result<Box<RawValue>> {
+        serde_json::value::to_raw_value(self)
+    }
+
+    /// The stamp that the file was written with.
+    pub(super) fn into_stamp(self) -> Stamp {
+        let exposure = if self.exposure.automatic {
+            Exposure::Automatic
+        } else {
+            Exposure::Ev(self.exposure.ev)
+        };
+        Stamp { exposure, settings: self.settings, finished: self.finished }
+    }
+}

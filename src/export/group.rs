@@ -1,0 +1,66 @@
+//! A mesh sorted by material, each with only the vertices it uses.
+
+use std::collections::BTreeMap;
+
+use crate::reconstruct::TriMesh;
+
+/// The triangles of one material and their vertices, numbered on their own.
+#[derive(Debug)]
+pub(crate) struct Group<'a> {
+    pub(crate) name: &'a str,
+    /// Index into [`TriMesh::textures`].
+    pub(crate) texture: Option<u32>,
+    /// Indices into the mesh's lists of vertices, in order of first use.
+    pub(crate) vertices: Vec<u32>,
+    /// Corners, as indices into `vertices`.
+    pub(crate) triangles: Vec<[u32; 3]>,
+}
+
+impl<'a> Group<'a> {
+    fn new(name: &'a str, texture: Option<u32>) -> Self {
+        Self { name, texture, vertices: Vec::new(), triangles: Vec::new() }
+    }
+
+    /// Trades the mesh's vertex numbers for the group's own; `numbers` is scratch space.
+    fn renumber(&mut self, numbers: &mut [u32]) {
+        for corner in self.triangles.iter_mut().flatten() {
+            let number = &mut numbers[*corner as usize];
+            if *number == UNUSED {
+                *number = self.vertices.len() as u32;
+                self.vertices.push(*corner);
+            }
+            *corner = *number;
+        }
+        for &vertex in &self.vertices {
+            numbers[vertex as usize] = UNUSED;
+        }
+    }
+}
+
+const UNUSED: u32 = u32::MAX;
+
+/// One group for each material that has triangles, in the order they first appear.
+pub(crate) fn by_material(mesh: &TriMesh) -> Vec<Group<'_>> {
+    let mut groups: Vec<Group> = Vec::new();
+    let mut places = BTreeMap::new();
+    for part in mesh.parts.iter().filter(|part| !part.triangles.is_empty()) {
+        let place = *places.entry((part.name.as_str(), part.texture)).or_insert_with(|| {
+            groups.push(Group::new(&part.name, part.texture));
+            groups.len() - 1
+        });
+        groups[place].triangles.extend_from_slice(&mesh.triangles[part.triangles.clone()]);
+    }
+    let mut numbers = vec![UNUSED; mesh.positions.len()];
+    for group in &mut groups {
+        group.renumber(&mut numbers);
+    }
+    groups
+}
+
+/// All triangles and the vertices they use, whatever the material.
+pub(crate) fn whole(mesh: &TriMesh) -> Group<'_> {
+    let mut group = Group::new("", None);
+    group.triangles.clone_from(&mesh.triangles);
+    group.renumber(&mut vec![UNUSED; mesh.positions.len()]);
+    group
+}

@@ -1,0 +1,74 @@
+//! What every writer asks of a mesh: its colours on a screen and a few words about them.
+
+use super::Stamp;
+use crate::colour::{Rgb, srgb_from_linear};
+use crate::reconstruct::TriMesh;
+use crate::tone::{Exposure, exposure_scale, exposure_value, tone_map};
+
+/// Name of the curve behind [`tone_map`], for the record.
+pub(crate) const TONE_CURVE: &str = "PBR Neutral for diffuse surfaces, linear up to 0.4";
+
+/// A mesh, its stamp and the exposure that follows from both.
+#[derive(Debug)]
+pub(crate) struct Look<'a> {
+    pub(crate) mesh: &'a TriMesh,
+    pub(crate) stamp: &'a Stamp,
+    /// Factor on radiosity before the tone curve, m²/W.
+    pub(crate) scale: f64,
+}
+
+impl<'a> Look<'a> {
+    pub(crate) fn new(mesh: &'a TriMesh, stamp: &'a Stamp) -> Self {
+        debug_assert!(mesh.positions.iter().all(|position| position.is_finite()));
+        debug_assert!(mesh.normals.iter().all(|normal| normal.is_normalized()));
+        debug_assert!(mesh.radiosity.iter().all(|radiosity| radiosity.is_finite()));
+        Self { mesh, stamp, scale: exposure_scale(mesh, stamp.exposure) }
+    }
+
+    /// Linear colour, 0..=1, of the light that leaves a vertex.
+    pub(crate) fn colour(&self, vertex: u32) -> Rgb {
+        tone_map(self.mesh.radiosity[vertex as usize] * self.scale)
+    }
+
+    /// Linear colour, 0..=1, that is to be multiplied by the picture under a vertex, if it has one.
+    pub(crate) fn light(&self, vertex: u32) -> Rgb {
+        let radiosity = self.mesh.radiosity[vertex as usize].to_array();
+        let mean = self.mesh.texture_mean[vertex as usize].to_array();
+        // A channel that the picture is black in shows nothing, whatever it is multiplied by.
+        let light = |channel: usize| {
+            if mean[channel] > 0.0 { radiosity[channel] / mean[channel] } else { 0.0 }
+        };
+        tone_map(Rgb::from_array(std::array::from_fn(light)) * self.scale)
+    }
+
+    /// Sentences for the comments of text headers, one a line.
+    pub(crate) fn remarks(&self) -> Vec<String> {
+        let mode = match self.stamp.exposure {
+            Exposure::Automatic => "automatic",
+            Exposure::Ev(_) => "chosen",
+        };
+        let ev = exposure_value(self.scale);
+        let mut remarks = vec![
+            format!("Light on a mesh, by radiosity {}; metres, Y up.", env!("CARGO_PKG_VERSION")),
+            format!(
+                "Colours: radiosity in W/m^2 times {:.6e} (EV {ev:.2}, {mode}), tone curve {TONE_CURVE}, sRGB.",
+                self.scale
+            ),
+        ];
+        if !self.stamp.finished {
+            remarks.push("Unfinished: the solver was stopped before it was done.".to_owned());
+        }
+        remarks
+    }
+}
+
+/// sRGB-coded values, 0..=1, of a linear colour.
+pub(crate) fn coded(colour: Rgb) -> [f64; 3] {
+    colour.to_array().map(srgb_from_linear)
+}
+
+/// The nearest finite single-precision numbers.
+pub(crate) fn singles(vector: glam::DVec3) -> [f32; 3] {
+    let limit = f64::from(f32::MAX);
+    vector.to_array().map(|x| x.clamp(-limit, limit) as f32)
+}

@@ -1,0 +1,130 @@
+//! OBJ with vertex colours, its MTL, and the pictures that the MTL names.
+
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+use std::path::Path;
+
+use super::file;
+use super::group::{self, Group};
+use super::look::{Look, coded, singles};
+use super::picture::{self, Coding};
+use crate::error::{Error, Result};
+
+/// Writes the OBJ at `path`, and beside it a file of materials and the pictures in use.
+pub(crate) fn save(look: &Look, path: &Path) -> Result<()> {
+    let groups = group::by_material(look.mesh);
+    let names = material_names(&groups);
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let textures: BTreeSet<u32> = groups.iter().filter_map(|group| group.texture).collect();
+    for &texture in &textures {
+        let target = path.with_file_name(picture_name(look, &stem, texture));
+        let bytes =
+            picture::encoded(&look.mesh.textures[texture as usize]).map_err(Error::io(&target))?;
+        file::replace(&target, |out| out.write_all(&bytes))?;
+    }
+    file::replace(&path.with_extension("mtl"), |out| {
+        groups.iter().zip(&names).try_for_each(|(group, name)| {
+            let picture = group.texture.map(|texture| picture_name(look, &stem, texture));
+            write_material(name, picture.as_deref(), out)
+        })
+    })?;
+    file::replace(path, |out| {
+        write_header(look, &stem, out)?;
+        let mut body = Body { look, out, vertices: 0, uvs: 0 };
+        groups.iter().zip(&names).try_for_each(|(group, name)| body.write_group(group, name))
+    })
+}
+
+fn write_header(look: &Look, stem: &str, out: &mut impl Write) -> io::Result<()> {
+    for remark in look.remarks() {
+        writeln!(out, "# {remark}")?;
+    }
+    writeln!(
+        out,
+        "# v x y z r g b; where there is a picture, r g b is the light to multiply it by."
+    )?;
+    writeln!(out, "mtllib {stem}.mtl")
+}
+
+/// What is written so far, by which OBJ numbers what follows.
+struct Body<'a, W> {
+    look: &'a Look<'a>,
+    out: &'a mut W,
+    vertices: usize,
+    uvs: usize,
+}
+
+impl<W: Write> Body<'_, W> {
+    fn write_group(&mut self, group: &Group, name: &str) -> io::Result<()> {
+        let mesh = self.look.mesh;
+        for &vertex in &group.vertices {
+            let [x, y, z] = singles(mesh.positions[vertex as usize]);
+            let [r, g, b] = coded(self.look.light(vertex));
+            writeln!(self.out, "v {x} {y} {z} {r:.4} {g:.4} {b:.4}")?;
+        }
+        for &vertex in &group.vertices {
+            let [x, y, z] = mesh.normals[vertex as usize].to_array();
+            writeln!(self.out, "vn {x:.5} {y:.5} {z:.5}")?;
+        }
+        if group.texture.is_some() {
+            for &vertex in &group.vertices {
+                // OBJ counts texture coordinates from the bottom of the picture.
+                let uv = mesh.uvs[vertex as usize];
+                writeln!(self.out, "vt {} {}", uv.x, 1.0 - uv.y)?;
+            }
+        }
+        writeln!(self.out, "usemtl {name}")?;
+        for triangle in &group.triangles {
+            let [a, b, c] = triangle.map(|corner| self.corner(corner as usize, group));
+            writeln!(self.out, "f {a} {b} {c}")?;
+        }
+        self.vertices += group.vertices.len();
+        self.uvs += if group.texture.is_some() { group.vertices.len() } else { 0 };
+        Ok(())
+    }
+
+    fn corner(&self, corner: usize, group: &Group) -> String {
+        let vertex = self.vertices + corner + 1;
+        match group.texture {
+            Some(_) => format!("{vertex}/{}/{vertex}", self.uvs + corner + 1),
+            None => format!("{vertex}//{vertex}"),
+        }
+    }
+}
+
+/// A material that shows its colour as it is, `illum 0`: the light is already in it.
+fn write_material(name: &str, picture: Option<&str>, out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "newmtl {name}\nKd 1 1 1\nillum 0")?;
+    match picture {
+        Some(picture) => writeln!(out, "map_Kd {picture}\n"),
+        None => writeln!(out),
+    }
+}
+
+fn picture_name(look: &Look, stem: &str, texture: u32) -> String {
+    let ending = Coding::of(&look.mesh.textures[texture as usize]).ending();
+    format!("{stem}-{texture}.{ending}")
+}
+
+/// Names that an MTL can hold: without spaces, and each used once.
+fn material_names(groups: &[Group]) -> Vec<String> {
+    let mut taken = BTreeSet::new();
+    groups
+        .iter()
+        .map(|group| {
+            let plain: String = group
+                .name
+                .chars()
+                .map(|c| if c.is_whitespace() || c.is_control() { '_' } else { c })
+                .collect();
+            let plain = if plain.is_empty() { "material".to_owned() } else { plain };
+            let mut name = plain.clone();
+            let mut count = 1;
+            while !taken.insert(name.clone()) {
+                count += 1;
+                name = format!("{plain}.{count}");
+            }
+            name
+        })
+        .collect()
+}

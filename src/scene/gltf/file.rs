@@ -1,0 +1,145 @@
+//! A glTF or GLB file with its buffers; every index into it is checked.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use ::gltf::json::root::Get;
+use ::gltf::json::{Index, Root, buffer};
+use ::gltf::{Glb, json};
+use data_url::DataUrl;
+use percent_encoding::percent_decode_str;
+
+use crate::error::{Error, Result};
+
+/// Required extensions that are read, or whose absence leaves diffuse light as it is.
+const READABLE: [&str; 5] = [
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",
+    "KHR_texture_transform",
+    "KHR_mesh_quantization",
+];
+
+/// The parsed JSON and the bytes it refers to.
+///
+/// The crate's own document is left aside: its accessors unwrap what its validation lets pass.
+#[derive(Debug)]
+pub(super) struct File {
+    pub(super) path: PathBuf,
+    pub(super) root: Root,
+    /// `None` for buffers without data, which only compression extensions may fill.
+    buffers: Vec<Option<Vec<u8>>>,
+}
+
+impl File {
+    /// Reads the file and all buffers.
+    pub(super) fn open(path: &Path) -> Result<Self> {
+        let bytes = fs::read(path).map_err(Error::io(path))?;
+        let (root, mut blob) = parse(path, &bytes)?;
+        let mut file = Self { path: path.to_owned(), root, buffers: Vec::new() };
+        file.refuse_unreadable_extensions()?;
+        for index in 0..file.root.buffers.len() {
+            let data = file.buffer(index, &mut blob)?;
+            file.buffers.push(data);
+        }
+        Ok(file)
+    }
+
+    /// An error about this file.
+    pub(super) fn fail(&self, message: impl Into<String>) -> Error {
+        Error::format(&self.path, message)
+    }
+
+    /// The item that `index` names, or an error that says `what` was looked for.
+    pub(super) fn get<T>(&self, index: Index<T>, what: &str) -> Result<&T>
+    where
+        Root: Get<T>,
+    {
+        let missing = || self.fail(format!("{what} {index} does not exist"));
+        self.root.get(index).ok_or_else(missing)
+    }
+
+    /// The bytes of a buffer view and its stride, if it has one.
+    pub(super) fn view(&self, index: Index<buffer::View>) -> Result<(&[u8], Option<usize>)> {
+        let view = self.get(index, "buffer view")?;
+        let data = self.buffers.get(view.buffer.value()).and_then(Option::as_deref);
+        let start = usize::try_from(view.byte_offset.unwrap_or_default().0).ok();
+        let length = usize::try_from(view.byte_length.0).ok();
+        let bytes = data
+            .zip(start.zip(length))
+            .and_then(|(data, (start, length))| data.get(start..start.checked_add(length)?));
+        let outside =
+            || self.fail(format!("buffer view {index} lies outside buffer {}", view.buffer));
+        Ok((bytes.ok_or_else(outside)?, view.byte_stride.map(|stride| stride.0)))
+    }
+
+    /// The bytes behind a URI: `data:`, or a file beside this one.
+    pub(super) fn resource(&self, uri: &str) -> Result<Vec<u8>> {
+        if uri.starts_with("data:") {
+            let url = DataUrl::process(uri).map_err(|_| self.fail("malformed data: URI"))?;
+            let decoded = url.decode_to_vec();
+            return Ok(decoded.map_err(|error| self.fail(format!("data: URI: {error}")))?.0);
+        }
+        if uri.contains("://") {
+            return Err(
+                self.fail(format!("\"{uri}\": only data: URIs and relative paths are read"))
+            );
+        }
+        let name = percent_decode_str(uri).decode_utf8();
+        let name = name.map_err(|_| self.fail(format!("\"{uri}\" is not UTF-8 when decoded")))?;
+        let path = self.path.parent().unwrap_or(Path::new("")).join(name.as_ref());
+        fs::read(&path).map_err(Error::io(&path))
+    }
+
+    fn buffer(&self, index: usize, blob: &mut Option<Vec<u8>>) -> Result<Option<Vec<u8>>> {
+        let buffer = &self.root.buffers[index];
+        let data = match &buffer.uri {
+            Some(uri) => Some(self.resource(uri)?),
+            None if index == 0 => blob.take(),
+            None => None,
+        };
+        match data {
+            Some(data) if (data.len() as u64) < buffer.byte_length.0 => Err(self.fail(format!(
+                "buffer {index} has {} bytes instead of {}",
+                data.len(),
+                buffer.byte_length.0
+            ))),
+            data => Ok(data),
+        }
+    }
+
+    fn refuse_unreadable_extensions(&self) -> Result<()> {
+        let readable = |name: &str| {
+            let about_gloss =
+                name.starts_with("KHR_materials_") && name != "KHR_materials_pbrSpecularGlossiness";
+            READABLE.contains(&name) || about_gloss
+        };
+        match self.root.extensions_required.iter().find(|name| !readable(name)) {
+            Some(name) => {
+                Err(self.fail(format!("requires the extension {name}, which is not read")))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+fn parse(path: &Path, bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>)> {
+    if !bytes.starts_with(b"glTF") {
+        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let wrong = |error: json::Error| Error::Format {
+            path: path.to_owned(),
+            line: Some(error.line()).filter(|&line| line > 0),
+            message: format!("not valid glTF: {error}"),
+        };
+        return Ok((Root::from_slice(text).map_err(wrong)?, None));
+    }
+    // The crate subtracts the header's 12 bytes from the length without looking.
+    let length = bytes.get(8..12).map(|l| u32::from_le_bytes([l[0], l[1], l[2], l[3]]));
+    if length.is_none_or(|length| length < 12) {
+        return Err(Error::format(path, "the GLB header is cut short"));
+    }
+    let wrong = |why: String| Error::format(path, format!("not valid GLB: {why}"));
+    let glb = Glb::from_slice(bytes).map_err(|error| wrong(error.to_string()))?;
+    let root = Root::from_slice(&glb.json).map_err(|error| wrong(error.to_string()))?;
+    Ok((root, glb.bin.map(|bin| bin.into_owned())))
+}

@@ -1,0 +1,155 @@
+//! Materials and their pictures.
+
+use std::collections::HashMap;
+
+use ::gltf::json::material::AlphaMode;
+use ::gltf::json::texture::{Info, Sampler, WrappingMode};
+use ::gltf::json::validation::Checked;
+use ::gltf::json::{self, Index};
+use glam::{DAffine2, DMat2, DVec2, Vec2, Vec3};
+
+use super::file::File;
+use crate::colour::Rgb;
+use crate::error::Result;
+use crate::scene::notes::{listed, note_count};
+use crate::scene::texture::{Picture, UvMapping, attach_pictures, decode};
+use crate::scene::{Material, Scene};
+
+/// Reads all materials into `scene`; returns how each of them maps texture coordinates.
+pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Vec<UvMapping>> {
+    let mut reader = Reader { file, scene, textures: HashMap::new(), mirrored: 0 };
+    let mut mappings = Vec::new();
+    let (mut metals, mut clear) = (Vec::new(), Vec::new());
+    for (index, from) in file.root.materials.iter().enumerate() {
+        let (material, mapping) = reader.material(index, from)?;
+        if from.pbr_metallic_roughness.metallic_factor.0 > 0.5 && is_metal(from) {
+            metals.push(material.name.clone());
+        }
+        if from.alpha_mode != Checked::Valid(AlphaMode::Opaque) {
+            clear.push(material.name.clone());
+        }
+        reader.scene.materials.push(material);
+        mappings.push(mapping);
+    }
+    let mirrored = reader.mirrored;
+    note_count(&mut scene.notes, mirrored, "picture", "repeated instead of mirrored");
+    if !metals.is_empty() {
+        scene
+            .notes
+            .push(format!("metals taken as diffuse in their base colour: {}", listed(&metals)));
+    }
+    if !clear.is_empty() {
+        scene.notes.push(format!("alpha ignored, taken as opaque: {}", listed(&clear)));
+    }
+    Ok(mappings)
+}
+
+/// A metallic factor under a metallic-roughness picture says nothing by itself.
+fn is_metal(material: &json::Material) -> bool {
+    material.pbr_metallic_roughness.metallic_roughness_texture.is_none()
+}
+
+struct Reader<'a> {
+    file: &'a File,
+    scene: &'a mut Scene,
+    /// Index into the scene's textures by glTF texture; `None` for unreadable ones.
+    textures: HashMap<usize, Option<u32>>,
+    mirrored: usize,
+}
+
+impl Reader<'_> {
+    fn material(&mut self, index: usize, from: &json::Material) -> Result<(Material, UvMapping)> {
+        let pbr = &from.pbr_metallic_roughness;
+        let strength = from.extensions.as_ref().and_then(|all| all.emissive_strength.as_ref());
+        let strength = strength.map_or(1.0, |strength| strength.emissive_strength.0);
+        let [red, green, blue, _] = pbr.base_color_factor.0;
+        let mut material = Material {
+            name: from.name.clone().unwrap_or_else(|| format!("material {index}")),
+            reflectance: Vec3::new(red, green, blue).as_dvec3(),
+            emission: Vec3::from(from.emissive_factor.0).as_dvec3() * f64::from(strength),
+            double_sided: from.double_sided,
+            ..Material::default()
+        };
+        let reflectance = self.picture(pbr.base_color_texture.as_ref())?;
+        let glows = material.emission != Rgb::ZERO;
+        let emission = self.picture(from.emissive_texture.as_ref().filter(|_| glows))?;
+        let mapping = attach_pictures(self.scene, &mut material, reflectance, emission);
+        Ok((material, mapping))
+    }
+
+    fn picture(&mut self, info: Option<&Info>) -> Result<Option<Picture>> {
+        let Some(info) = info else { return Ok(None) };
+        let index = info.index.value();
+        let texture = match self.textures.get(&index) {
+            Some(&known) => known,
+            None => {
+                let read = self.texture(info.index)?;
+                self.textures.insert(index, read);
+                read
+            }
+        };
+        Ok(texture.map(|texture| Picture { texture, mapping: mapping(info) }))
+    }
+
+    /// Reads a texture; an unreadable picture costs a note and the texture, not the scene.
+    fn texture(&mut self, index: Index<json::Texture>) -> Result<Option<u32>> {
+        let texture = self.file.get(index, "texture")?;
+        let repeat = match texture.sampler {
+            Some(sampler) => self.repeat(self.file.get(sampler, "sampler")?),
+            None => [true; 2],
+        };
+        let Some(image) = self.file.root.get(texture.source) else {
+            self.scene
+                .notes
+                .push(format!("texture {index} left out: it has no PNG or JPEG picture"));
+            return Ok(None);
+        };
+        let unnamed = || format!("image {}", texture.source);
+        let uri = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
+        let name = image.name.clone().or(uri.map(str::to_owned)).unwrap_or_else(unnamed);
+        let picture = self.encoded(image).and_then(|bytes| decode(&name, &bytes, repeat));
+        match picture {
+            Ok(picture) => {
+                self.scene.textures.push(picture);
+                Ok(Some(self.scene.textures.len() as u32 - 1))
+            }
+            Err(why) => {
+                self.scene.notes.push(format!("picture \"{name}\" left out: {why}"));
+                Ok(None)
+            }
+        }
+    }
+
+    fn encoded(&self, image: &json::Image) -> std::result::Result<Vec<u8>, String> {
+        let bytes = match (&image.buffer_view, &image.uri) {
+            (Some(view), _) => self.file.view(*view).map(|(bytes, _)| bytes.to_vec()),
+            (None, Some(uri)) => self.file.resource(uri),
+            (None, None) => return Err("it has neither data nor a file".to_owned()),
+        };
+        bytes.map_err(|error| error.to_string())
+    }
+
+    fn repeat(&mut self, sampler: &Sampler) -> [bool; 2] {
+        let wraps = [&sampler.wrap_s, &sampler.wrap_t];
+        let mirrored = wraps.contains(&&Checked::Valid(WrappingMode::MirroredRepeat));
+        self.mirrored += usize::from(mirrored);
+        wraps.map(|wrap| *wrap != Checked::Valid(WrappingMode::ClampToEdge))
+    }
+}
+
+/// The set of coordinates and the transform (`KHR_texture_transform`) a texture is read with.
+///
+/// Rotation is counter-clockwise as seen in the picture, whose v points down.
+fn mapping(info: &Info) -> UvMapping {
+    let transform = info.extensions.as_ref().and_then(|all| all.texture_transform.as_ref());
+    let Some(transform) = transform else {
+        return UvMapping { set: info.tex_coord, ..UvMapping::default() };
+    };
+    let rotation = DMat2::from_angle(-f64::from(transform.rotation.0));
+    let scale = DMat2::from_diagonal(Vec2::from(transform.scale.0).as_dvec2());
+    let offset: DVec2 = Vec2::from(transform.offset.0).as_dvec2();
+    UvMapping {
+        set: transform.tex_coord.unwrap_or(info.tex_coord),
+        transform: DAffine2::from_mat2_translation(rotation * scale, offset),
+    }
+}

@@ -1,0 +1,70 @@
+//! glTF 2.0 and GLB: parsed by the `gltf` crate, every number checked here before it is used.
+
+mod accessors;
+mod file;
+mod lights;
+mod materials;
+mod nodes;
+mod primitives;
+
+use std::path::Path;
+
+use self::file::File;
+use super::notes::note_count;
+use super::texture::UvMapping;
+use super::{Material, Scene};
+use crate::error::Result;
+
+/// Reads the glTF or GLB file at `path` with its buffers and pictures.
+pub(super) fn read(path: &Path) -> Result<Scene> {
+    let file = File::open(path)?;
+    let mut scene = Scene::default();
+    let mappings = materials::read(&file, &mut scene)?;
+    let mut import =
+        Import { file: &file, scene, mappings, fallback: None, skipped: Skipped::default() };
+    import.add_nodes()?;
+    import.note_skipped();
+    Ok(import.scene)
+}
+
+/// A scene while it is read.
+struct Import<'a> {
+    file: &'a File,
+    scene: Scene,
+    /// How the materials map texture coordinates, as many as the scene's materials.
+    mappings: Vec<UvMapping>,
+    /// Index of the material of primitives without one.
+    fallback: Option<u32>,
+    skipped: Skipped,
+}
+
+/// How much was left out.
+#[derive(Default)]
+struct Skipped {
+    /// Primitives of points or lines.
+    loose: usize,
+    /// Cameras that are not perspective, or without a sensible angle or direction.
+    cameras: usize,
+    skins: usize,
+    morphs: usize,
+}
+
+impl Import<'_> {
+    /// The default material, added to the scene on its first use.
+    fn fallback_material(&mut self) -> u32 {
+        *self.fallback.get_or_insert_with(|| {
+            self.scene.materials.push(Material::default());
+            self.mappings.push(UvMapping::default());
+            self.scene.notes.push("meshes without material get grey of reflectance 0.5".to_owned());
+            self.scene.materials.len() as u32 - 1
+        })
+    }
+
+    fn note_skipped(&mut self) {
+        let (skipped, notes) = (&self.skipped, &mut self.scene.notes);
+        note_count(notes, skipped.loose, "primitive", "of points or lines ignored");
+        note_count(notes, skipped.cameras, "camera", "ignored: only perspective ones are read");
+        note_count(notes, skipped.skins, "skinned mesh node", "taken in rest pose");
+        note_count(notes, skipped.morphs, "morphed primitive", "taken in rest pose");
+    }
+}

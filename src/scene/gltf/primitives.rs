@@ -1,0 +1,206 @@
+//! Triangles of a mesh, placed in the world.
+
+use ::gltf::json::mesh::{Mode, Primitive, Semantic};
+use ::gltf::json::validation::Checked;
+use ::gltf::json::{Index, accessor::Accessor};
+use glam::{DMat3, DMat4, DVec2, DVec3, Vec3};
+use smallvec::SmallVec;
+
+use super::Import;
+use super::accessors::Purpose;
+use super::file::File;
+use crate::colour::Rgb;
+use crate::error::Result;
+use crate::scene::Face;
+use crate::scene::load::tamed;
+
+/// Where and as what a primitive stands in the scene.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placement {
+    /// Mesh to world.
+    pub(super) transform: DMat4,
+    /// Index into the scene's objects.
+    pub(super) object: u32,
+}
+
+/// A primitive's vertices in the world; lists other than `positions` may be empty.
+struct Vertices {
+    positions: Vec<DVec3>,
+    normals: Vec<Vec3>,
+    uvs: Vec<DVec2>,
+    colours: Vec<Rgb>,
+}
+
+impl Import<'_> {
+    /// Adds the triangles of `primitive`.
+    pub(super) fn add_primitive(
+        &mut self,
+        primitive: &Primitive,
+        placement: Placement,
+    ) -> Result<()> {
+        let mode = match &primitive.mode {
+            Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => {
+                *mode
+            }
+            Checked::Valid(_) => {
+                self.skipped.loose += 1;
+                return Ok(());
+            }
+            Checked::Invalid => return Err(self.file.fail("a primitive of unknown mode")),
+        };
+        self.skipped.morphs +=
+            usize::from(primitive.targets.as_ref().is_some_and(|t| !t.is_empty()));
+        let material = self.material(primitive)?;
+        let vertices = self.vertices(primitive, material, placement)?;
+        let count = vertices.positions.len();
+        let indices = match primitive.indices {
+            Some(index) => self.file.indices(index)?,
+            None => (0..count as u32).collect(),
+        };
+        if let Some(index) = indices.iter().find(|&&index| index as usize >= count) {
+            return Err(self
+                .file
+                .fail(format!("vertex {index} is used, but there are only {count}")));
+        }
+        let base = self.scene.positions.len();
+        if base + count > u32::MAX as usize {
+            return Err(self.file.fail("more vertices than 32 bits can count"));
+        }
+        self.scene.positions.extend(&vertices.positions);
+        let mirrored = DMat3::from_mat4(placement.transform).determinant() < 0.0;
+        for mut triangle in triangles(&indices, mode) {
+            if mirrored {
+                triangle.swap(1, 2);
+            }
+            let mut face = vertices.face(triangle, base as u32);
+            (face.material, face.object) = (material, placement.object);
+            self.scene.faces.push(face);
+        }
+        Ok(())
+    }
+
+    fn material(&mut self, primitive: &Primitive) -> Result<u32> {
+        match primitive.material {
+            Some(index) => {
+                self.file.get(index, "material")?;
+                Ok(index.value() as u32)
+            }
+            None => Ok(self.fallback_material()),
+        }
+    }
+
+    fn vertices(
+        &self,
+        primitive: &Primitive,
+        material: u32,
+        placement: Placement,
+    ) -> Result<Vertices> {
+        let attribute =
+            |semantic: Semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
+        let mapping = self.mappings[material as usize];
+        let transform = placement.transform;
+        let points: Vec<[f64; 3]> = match attribute(Semantic::Positions) {
+            Some(index) => self.file.floats(index, Purpose::Position)?,
+            None => return Err(self.file.fail("a primitive without POSITION")),
+        };
+        let expected = points.len();
+        // Multiplying by the cofactors keeps normals right under any scale, even a flat one.
+        let across = cofactors(DMat3::from_mat4(transform));
+        let place = |n: [f64; 3]| (across * DVec3::from(n)).normalize_or_zero().as_vec3();
+        let normals = list(self.file, attribute(Semantic::Normals), Purpose::Normal, expected)?;
+        let uvs = list(
+            self.file,
+            attribute(Semantic::TexCoords(mapping.set)),
+            Purpose::TexCoord,
+            expected,
+        )?;
+        let colours = list(self.file, attribute(Semantic::Colors(0)), Purpose::Colour, expected)?;
+        Ok(Vertices {
+            positions: points.into_iter().map(|p| transform.transform_point3(p.into())).collect(),
+            normals: normals.into_iter().map(place).collect(),
+            uvs: uvs.into_iter().map(|uv: [f64; 2]| mapping.apply(uv.into())).collect(),
+            colours: colours.into_iter().map(|c: [f64; 3]| tamed(c.into(), 1.0)).collect(),
+        })
+    }
+}
+
+/// An attribute's values, one a vertex, or nothing where the primitive has no such attribute.
+fn list<const N: usize>(
+    file: &File,
+    index: Option<Index<Accessor>>,
+    purpose: Purpose,
+    expected: usize,
+) -> Result<Vec<[f64; N]>> {
+    let Some(index) = index else { return Ok(Vec::new()) };
+    let values = file.floats(index, purpose)?;
+    if values.len() != expected {
+        let count = values.len();
+        let message = format!("accessor {index} has {count} elements for {expected} vertices");
+        return Err(file.fail(message));
+    }
+    Ok(values)
+}
+
+impl Vertices {
+    fn face(&self, triangle: [u32; 3], base: u32) -> Face {
+        let corners = triangle.map(|corner| corner as usize);
+        let tint = match self.colours.is_empty() {
+            true => Rgb::ONE,
+            false => corners.iter().map(|&corner| self.colours[corner]).sum::<Rgb>() / 3.0,
+        };
+        Face {
+            vertices: triangle.iter().map(|corner| base + corner).collect(),
+            normals: picked(&self.normals, corners),
+            uvs: picked(&self.uvs, corners),
+            tint,
+            ..Face::default()
+        }
+    }
+}
+
+fn picked<T: Copy>(list: &[T], corners: [usize; 3]) -> SmallVec<[T; 4]> {
+    corners.iter().filter_map(|&corner| list.get(corner).copied()).collect()
+}
+
+/// The matrix that carries cross products along with `matrix`, up to the sign of its determinant.
+fn cofactors(matrix: DMat3) -> DMat3 {
+    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
+    let sign = if matrix.determinant() < 0.0 { -1.0 } else { 1.0 };
+    sign * DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
+}
+
+/// Index triples of the triangles, counter-clockwise; left-over indices are ignored as the format wants.
+fn triangles(indices: &[u32], mode: Mode) -> Vec<[u32; 3]> {
+    match mode {
+        Mode::TriangleStrip => (indices.windows(3).enumerate())
+            .map(|(at, w)| if at % 2 == 0 { [w[0], w[1], w[2]] } else { [w[1], w[0], w[2]] })
+            .collect(),
+        Mode::TriangleFan => match indices {
+            [hub, rim @ ..] => rim.windows(2).map(|w| [*hub, w[0], w[1]]).collect(),
+            [] => Vec::new(),
+        },
+        _ => indices.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strips_and_fans_keep_the_winding_of_their_first_triangle() {
+        let indices = [0, 1, 2, 3, 4];
+        assert_eq!(triangles(&indices, Mode::TriangleStrip), [[0, 1, 2], [2, 1, 3], [2, 3, 4]]);
+        assert_eq!(triangles(&indices, Mode::TriangleFan), [[0, 1, 2], [0, 2, 3], [0, 3, 4]]);
+        assert_eq!(triangles(&indices, Mode::Triangles), [[0, 1, 2]]);
+        assert!(triangles(&[], Mode::TriangleFan).is_empty());
+    }
+
+    #[test]
+    fn normals_stay_across_their_plane_under_any_scale() {
+        let matrix = DMat3::from_diagonal(DVec3::new(-1.0, 4.0, 0.5));
+        let (u, v) = (DVec3::new(1.0, 2.0, 0.0), DVec3::new(0.0, 1.0, 3.0));
+        let placed = cofactors(matrix) * u.cross(v);
+        assert!(placed.dot(matrix * u).abs() < 1e-12 && placed.dot(matrix * v).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,124 @@
+//! From a file of any known kind to a cleaned scene.
+
+use std::path::Path;
+
+use super::notes::listed;
+use super::{LoadOptions, MAX_REFLECTANCE, Scene, gltf, obj, repair};
+use crate::colour::Rgb;
+use crate::error::{Error, Result};
+
+/// Coordinates beyond this are taken for a wrong unit or a broken file, m.
+const MAX_COORDINATE: f64 = 1e9;
+
+/// Radiance beyond this is cut, W/(m² sr): about 10^5 suns, and products of it stay finite.
+pub(crate) const MAX_RADIANCE: f64 = 1e12;
+
+/// Reads an OBJ (with its MTL), glTF or GLB file.
+///
+/// # Errors
+/// When the file cannot be read or is not what its ending says; the message names the place.
+pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene> {
+    let mut scene = read(path, options)?;
+    refuse_huge_coordinates(path, &scene)?;
+    repair::clean(&mut scene);
+    limit_materials(&mut scene);
+    if let Some(two_sided) = options.two_sided {
+        for material in &mut scene.materials {
+            material.double_sided = two_sided;
+        }
+    }
+    if scene.faces.is_empty() {
+        let reasons: String = scene.notes.iter().map(|note| format!("; {note}")).collect();
+        return Err(Error::Scene(format!("{}: the scene has no faces{reasons}", path.display())));
+    }
+    Ok(scene)
+}
+
+fn read(path: &Path, options: &LoadOptions) -> Result<Scene> {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    match ending.as_str() {
+        "obj" => {
+            let scale = options.metres_per_unit;
+            if !(scale.is_finite() && scale > 0.0) {
+                let message = format!("{scale} metres per unit; use a positive number");
+                return Err(Error::Setting { name: "units", message });
+            }
+            obj::read(path, scale)
+        }
+        "gltf" | "glb" => gltf::read(path),
+        _ => Err(Error::UnknownFormat { path: path.to_owned(), known: ".obj, .gltf, .glb" }),
+    }
+}
+
+fn refuse_huge_coordinates(path: &Path, scene: &Scene) -> Result<()> {
+    let fits = |x: f64| x.abs() <= MAX_COORDINATE;
+    match scene.positions.iter().find(|p| !p.to_array().into_iter().all(fits)) {
+        None => Ok(()),
+        Some(p) => Err(Error::format(
+            path,
+            format!("the vertex ({}, {}, {}) m lies beyond {MAX_COORDINATE:e} m", p.x, p.y, p.z),
+        )),
+    }
+}
+
+/// `colour` with every channel a number in 0..=`limit`.
+pub(crate) fn tamed(colour: Rgb, limit: f64) -> Rgb {
+    let tame = |x: f64| if x.is_nan() { 0.0 } else { x.clamp(0.0, limit) };
+    Rgb::new(tame(colour.x), tame(colour.y), tame(colour.z))
+}
+
+/// Brings reflectance into 0..=[`MAX_REFLECTANCE`] and emission into 0..=[`MAX_RADIANCE`].
+fn limit_materials(scene: &mut Scene) {
+    let (mut bright, mut wrong) = (Vec::new(), Vec::new());
+    for material in &mut scene.materials {
+        if material.reflectance.max_element() > MAX_REFLECTANCE {
+            bright.push(material.name.clone());
+        }
+        let reflectance = tamed(material.reflectance, MAX_REFLECTANCE);
+        let emission = tamed(material.emission, MAX_RADIANCE);
+        // NaN equals nothing, so this also tells NaN from its replacement.
+        if reflectance != material.reflectance.min(Rgb::splat(MAX_REFLECTANCE))
+            || emission != material.emission
+        {
+            wrong.push(material.name.clone());
+        }
+        (material.reflectance, material.emission) = (reflectance, emission);
+    }
+    if !bright.is_empty() {
+        let names = listed(&bright);
+        scene.notes.push(format!("reflectance above {MAX_REFLECTANCE} clamped in {names}"));
+    }
+    if !wrong.is_empty() {
+        let names = listed(&wrong);
+        scene.notes.push(format!("negative, infinite or undefined colours clamped in {names}"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Material;
+
+    #[test]
+    fn reflectance_above_limit_is_clamped_with_a_note() {
+        let white = Material { reflectance: Rgb::new(1.0, 0.5, 2.0), ..Material::default() };
+        let mut scene = Scene { materials: vec![white; 2], ..Scene::default() };
+        limit_materials(&mut scene);
+        assert_eq!(scene.materials[1].reflectance, Rgb::new(0.99, 0.5, 0.99));
+        assert_eq!(scene.notes.len(), 1, "{:?}", scene.notes);
+    }
+
+    #[test]
+    fn colours_that_are_no_colours_become_black() {
+        let odd = Material {
+            reflectance: Rgb::new(f64::NAN, -1.0, 0.5),
+            emission: Rgb::new(f64::INFINITY, 1.0, f64::NEG_INFINITY),
+            ..Material::default()
+        };
+        let mut scene = Scene { materials: vec![odd], ..Scene::default() };
+        limit_materials(&mut scene);
+        assert_eq!(scene.materials[0].reflectance, Rgb::new(0.0, 0.0, 0.5));
+        assert_eq!(scene.materials[0].emission, Rgb::new(MAX_RADIANCE, 1.0, 0.0));
+        assert_eq!(scene.notes.len(), 1, "{:?}", scene.notes);
+    }
+}

@@ -1,0 +1,164 @@
+//! The materials an OBJ file may use: its MTL libraries with their pictures.
+
+use std::collections::HashMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use glam::{DAffine2, DMat2, DVec2};
+
+use super::mtl::{self, Map, MtlMaterial};
+use super::text;
+use crate::colour::Rgb;
+use crate::scene::notes::listed;
+use crate::scene::texture::{Picture, UvMapping, attach_pictures, decode};
+use crate::scene::{Material, Scene};
+
+/// What a face needs to know of its material.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Use {
+    /// Index into [`Scene::materials`].
+    pub(super) material: u32,
+    pub(super) mapping: UvMapping,
+}
+
+/// Materials by name.
+#[derive(Debug, Default)]
+pub(super) struct Library {
+    by_name: HashMap<String, Use>,
+    /// Pictures read so far, by file and whether clamped; `None` for unreadable ones.
+    pictures: HashMap<(PathBuf, bool), Option<u32>>,
+    fallback: Option<Use>,
+    /// Names of the materials without a reflectance.
+    colourless: Vec<String>,
+}
+
+impl Library {
+    /// Reads the `libraries` that the OBJ file at `path` names; what is missing is noted.
+    pub(super) fn read(path: &Path, libraries: &[String], scene: &mut Scene) -> Self {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let mut library = Self::default();
+        let mut seen = Vec::new();
+        for file in libraries.iter().flat_map(|names| library_files(folder, names)) {
+            if seen.contains(&file) {
+                continue;
+            }
+            match text::read(&file) {
+                Ok(text) => {
+                    for material in mtl::parse(&file, &text, &mut scene.notes) {
+                        library.add(&file, material, scene);
+                    }
+                }
+                Err(error) => scene.notes.push(format!("material library missing: {error}")),
+            }
+            seen.push(file);
+        }
+        if !library.colourless.is_empty() {
+            let names = listed(&library.colourless);
+            scene.notes.push(format!("no Kd in {names}; grey of reflectance 0.5 is used"));
+        }
+        library
+    }
+
+    fn add(&mut self, file: &Path, from: MtlMaterial, scene: &mut Scene) {
+        let reflectance_map = from.reflectance_map.and_then(|map| self.picture(file, &map, scene));
+        let emission_map = from.emission_map.and_then(|map| self.picture(file, &map, scene));
+        if from.reflectance.is_none() && reflectance_map.is_none() {
+            self.colourless.push(from.name.clone());
+        }
+        let unsaid =
+            if reflectance_map.is_some() { Rgb::ONE } else { Material::default().reflectance };
+        let unlit = if emission_map.is_some() { Rgb::ONE } else { Rgb::ZERO };
+        let mut material = Material {
+            name: from.name.clone(),
+            reflectance: from.reflectance.unwrap_or(unsaid),
+            emission: from.emission.unwrap_or(unlit),
+            ..Material::default()
+        };
+        let mapping = attach_pictures(scene, &mut material, reflectance_map, emission_map);
+        scene.materials.push(material);
+        let used = Use { material: scene.materials.len() as u32 - 1, mapping };
+        if self.by_name.insert(from.name.clone(), used).is_some() {
+            let name = from.name;
+            scene.notes.push(format!("material \"{name}\" is defined twice; the last one counts"));
+        }
+    }
+
+    fn picture(&mut self, library: &Path, map: &Map, scene: &mut Scene) -> Option<Picture> {
+        let folder = library.parent().unwrap_or(Path::new(""));
+        let file = folder.join(map.file.replace('\\', "/"));
+        let key = (file, map.clamp);
+        if !self.pictures.contains_key(&key) {
+            let texture = read_picture(&key.0, map, scene);
+            self.pictures.insert(key.clone(), texture);
+        }
+        let texture = self.pictures.get(&key).copied().flatten()?;
+        Some(Picture { texture, mapping: UvMapping { set: 0, transform: from_bottom_left(map) } })
+    }
+
+    /// The uses of the materials in `names`; unknown ones fall back on the default with a note.
+    pub(super) fn resolve(
+        &mut self,
+        path: &Path,
+        names: &[(usize, String)],
+        scene: &mut Scene,
+    ) -> Vec<Use> {
+        let mut unknown = Vec::new();
+        let mut uses = Vec::with_capacity(names.len());
+        for (_, name) in names {
+            let used = self.by_name.get(name).copied();
+            uses.push(used.unwrap_or_else(|| {
+                unknown.push(name.clone());
+                self.fallback(scene)
+            }));
+        }
+        if !unknown.is_empty() {
+            let (line, list) = (first_line(names, &unknown), listed(&unknown));
+            scene.notes.push(format!(
+                "{}:{line}: unknown material {list}; grey of reflectance 0.5 is used",
+                path.display()
+            ));
+        }
+        uses
+    }
+
+    /// The default material, added to the scene on its first use.
+    pub(super) fn fallback(&mut self, scene: &mut Scene) -> Use {
+        *self.fallback.get_or_insert_with(|| {
+            scene.materials.push(Material::default());
+            let material = scene.materials.len() as u32 - 1;
+            Use { material, mapping: UvMapping::default() }
+        })
+    }
+}
+
+fn first_line(names: &[(usize, String)], unknown: &[String]) -> usize {
+    names.iter().find(|(_, name)| unknown.first() == Some(name)).map_or(0, |(line, _)| *line)
+}
+
+/// One file with spaces in its name, or several files: whichever exists.
+fn library_files(folder: &Path, names: &str) -> Vec<PathBuf> {
+    let whole = folder.join(names.trim_matches('"').replace('\\', "/"));
+    let parts: Vec<PathBuf> = names.split_whitespace().map(|name| folder.join(name)).collect();
+    if !whole.is_file() && parts.iter().any(|part| part.is_file()) { parts } else { vec![whole] }
+}
+
+fn read_picture(file: &Path, map: &Map, scene: &mut Scene) -> Option<u32> {
+    let bytes = fs::read(file).map_err(|error| error.to_string());
+    match bytes.and_then(|bytes| decode(&map.file, &bytes, [!map.clamp; 2])) {
+        Ok(texture) => {
+            scene.textures.push(texture);
+            Some(scene.textures.len() as u32 - 1)
+        }
+        Err(why) => {
+            scene.notes.push(format!("picture {} left out: {why}", file.display()));
+            None
+        }
+    }
+}
+
+/// Scales and moves as the map says, then counts v from the top instead of the bottom.
+fn from_bottom_left(map: &Map) -> DAffine2 {
+    let laid = DAffine2::from_mat2_translation(DMat2::from_diagonal(map.scale), map.offset);
+    let upside_down = DMat2::from_diagonal(DVec2::new(1.0, -1.0));
+    DAffine2::from_mat2_translation(upside_down, DVec2::Y) * laid
+}

@@ -1,0 +1,70 @@
+//! Lines of text files from many exporters.
+
+use std::borrow::Cow;
+use std::fs;
+use std::path::Path;
+
+use crate::error::{Error, Result};
+
+/// The file's text; bytes that are not UTF-8 become replacement characters.
+pub(crate) fn read(path: &Path) -> Result<String> {
+    let bytes = fs::read(path).map_err(Error::io(path))?;
+    let text = String::from_utf8_lossy(&bytes);
+    Ok(text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned())
+}
+
+/// Trimmed lines with the number of their first physical line, counted from 1.
+///
+/// Lines that end in `\` are joined with the next one; comments and empty lines are left out.
+pub(crate) fn lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
+    let mut physical = text.lines().enumerate();
+    std::iter::from_fn(move || {
+        let (index, line) = physical.next()?;
+        let mut line = Cow::Borrowed(line.trim());
+        while let Some(start) = line.strip_suffix('\\').filter(|start| !start.starts_with('#')) {
+            let next = physical.next().map_or("", |(_, next)| next.trim());
+            line = Cow::Owned(format!("{start} {next}"));
+        }
+        Some((index + 1, line))
+    })
+    .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
+}
+
+/// The first word of a line and what follows it, trimmed.
+pub(crate) fn keyword(line: &str) -> (&str, &str) {
+    let (word, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+    (word, rest.trim())
+}
+
+/// The words of `rest` up to a comment at the line's end.
+pub(crate) fn words(rest: &str) -> impl Iterator<Item = &str> {
+    rest.split_whitespace().take_while(|word| !word.starts_with('#'))
+}
+
+/// The words of `rest` as finite numbers, or the first word that is none.
+pub(crate) fn numbers(rest: &str) -> std::result::Result<Vec<f64>, &str> {
+    let number = |word: &'_ str| word.parse().ok().filter(|x: &f64| x.is_finite());
+    words(rest).map(|word| number(word).ok_or(word)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn continued_lines_are_joined_and_counted() {
+        let text = "v 1 \\\r\n 2 3\n# note \\\n\n\tf 1\\\n";
+        let found: Vec<_> = lines(text).collect();
+        assert_eq!(found.len(), 2);
+        assert_eq!((found[0].0, words(&found[0].1).count()), (1, 4));
+        assert_eq!((found[1].0, found[1].1.trim()), (5, "f 1"));
+    }
+
+    #[test]
+    fn only_finite_numbers_are_numbers() {
+        assert_eq!(numbers("1 -2e-3 # 5"), Ok(vec![1.0, -0.002]));
+        for wrong in ["nan", "inf", "1e999", "1,5", "x"] {
+            assert_eq!(numbers(wrong), Err(wrong));
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! Pictures: decoding, and how a material's pictures and texture coordinates belong together.
+
+use std::io::Cursor;
+
+use glam::{DAffine2, DVec2};
+use image::{DynamicImage, ImageFormat, Rgb32FImage};
+
+use super::{Material, Scene, Texture};
+use crate::colour::{Rgb, linear_from_srgb};
+
+/// How a file's texture coordinates become the scene's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct UvMapping {
+    /// Which of a mesh's sets of coordinates is meant.
+    pub(crate) set: u32,
+    /// Applied to the file's coordinates.
+    pub(crate) transform: DAffine2,
+}
+
+impl Default for UvMapping {
+    fn default() -> Self {
+        Self { set: 0, transform: DAffine2::IDENTITY }
+    }
+}
+
+impl UvMapping {
+    /// The scene's coordinates for the file's `uv`.
+    pub(crate) fn apply(&self, uv: DVec2) -> DVec2 {
+        self.transform.transform_point2(uv)
+    }
+}
+
+/// A texture of a scene and the coordinates it is read with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Picture {
+    pub(crate) texture: u32,
+    pub(crate) mapping: UvMapping,
+}
+
+/// Gives `material` its pictures and tells how its faces' coordinates are to be mapped.
+///
+/// Faces carry one set of coordinates, so an emission picture that is laid on differently
+/// from the reflectance picture is replaced by its mean.
+pub(crate) fn attach_pictures(
+    scene: &mut Scene,
+    material: &mut Material,
+    reflectance: Option<Picture>,
+    emission: Option<Picture>,
+) -> UvMapping {
+    material.texture = reflectance.map(|picture| picture.texture);
+    if let Some(picture) = reflectance {
+        // Only floating-point pictures hold more, and nothing reflects more than it receives.
+        for channel in scene.textures[picture.texture as usize].texels.iter_mut().flatten() {
+            *channel = channel.min(1.0);
+        }
+    }
+    let mapping = reflectance.or(emission).map(|picture| picture.mapping).unwrap_or_default();
+    if let Some(glow) = emission {
+        if glow.mapping == mapping {
+            material.emission_texture = Some(glow.texture);
+        } else {
+            material.emission *= mean(&scene.textures[glow.texture as usize]);
+            scene.notes.push(format!(
+                "material \"{}\": the emission picture is laid on unlike the colour picture; its mean is used",
+                material.name
+            ));
+        }
+    }
+    mapping
+}
+
+fn mean(texture: &Texture) -> Rgb {
+    let sum: Rgb = texture.texels.iter().map(|&texel| glam::Vec3::from(texel).as_dvec3()).sum();
+    sum / texture.texels.len().max(1) as f64
+}
+
+/// Decodes a picture, or says why it cannot.
+///
+/// Integer pictures are taken as sRGB, floating-point ones as linear. `encoded` is kept when it is
+/// PNG or JPEG; anything else is coded again as PNG.
+pub(crate) fn decode(name: &str, encoded: &[u8], repeat: [bool; 2]) -> Result<Texture, String> {
+    let format = image::guess_format(encoded).map_err(|error| error.to_string())?;
+    let picture =
+        image::load_from_memory_with_format(encoded, format).map_err(|error| error.to_string())?;
+    let (encoded, mime_type) = match format {
+        ImageFormat::Png => (encoded.to_vec(), "image/png"),
+        ImageFormat::Jpeg => (encoded.to_vec(), "image/jpeg"),
+        _ => (as_png(&picture)?, "image/png"),
+    };
+    Ok(Texture {
+        name: name.to_owned(),
+        width: picture.width(),
+        height: picture.height(),
+        texels: linear_texels(picture),
+        encoded,
+        mime_type: mime_type.to_owned(),
+        repeat,
+    })
+}
+
+fn as_png(picture: &DynamicImage) -> Result<Vec<u8>, String> {
+    let coded = DynamicImage::ImageRgb32F(coded_floats(picture));
+    let mut bytes = Cursor::new(Vec::new());
+    let written = coded.to_rgb8().write_to(&mut bytes, ImageFormat::Png);
+    written.map_err(|error| error.to_string())?;
+    Ok(bytes.into_inner())
+}
+
+/// The picture with sRGB-coded values in 0..=1.
+fn coded_floats(picture: &DynamicImage) -> Rgb32FImage {
+    let mut floats = picture.to_rgb32f();
+    if is_linear(picture) {
+        for value in floats.iter_mut() {
+            *value = crate::colour::srgb_from_linear(f64::from(value.max(0.0))) as f32;
+        }
+    }
+    floats
+}
+
+fn is_linear(picture: &DynamicImage) -> bool {
+    matches!(picture, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_))
+}
+
+fn linear_texels(picture: DynamicImage) -> Vec<[f32; 3]> {
+    if is_linear(&picture) {
+        let sound = |x: f32| if x.is_finite() { x.max(0.0) } else { 0.0 };
+        return picture.to_rgb32f().pixels().map(|pixel| pixel.0.map(sound)).collect();
+    }
+    if picture.color().bytes_per_pixel() > 4 {
+        let decode = |x: u16| linear_from_srgb(f64::from(x) / 65535.0) as f32;
+        return picture.to_rgb16().pixels().map(|pixel| pixel.0.map(decode)).collect();
+    }
+    let table: Vec<f32> =
+        (0..=255).map(|x| linear_from_srgb(f64::from(x) / 255.0) as f32).collect();
+    let decode = |x: u8| table[usize::from(x)];
+    picture.into_rgb8().pixels().map(|pixel| pixel.0.map(decode)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn encoded(format: ImageFormat, picture: &DynamicImage) -> Vec<u8> {
+        let mut bytes = Cursor::new(Vec::new());
+        picture.write_to(&mut bytes, format).unwrap();
+        bytes.into_inner()
+    }
+
+    #[test]
+    fn integer_pictures_are_decoded_from_srgb_and_kept_as_they_came() {
+        let picture =
+            DynamicImage::ImageRgb8(image::RgbImage::from_pixel(2, 1, image::Rgb([188, 0, 255])));
+        let bytes = encoded(ImageFormat::Png, &picture);
+        let texture = decode("t", &bytes, [true; 2]).unwrap();
+        assert_eq!((texture.width, texture.height, texture.texels.len()), (2, 1, 2));
+        assert!((texture.texels[1][0] - 0.502_886_5).abs() < 1e-5, "{:?}", texture.texels);
+        assert_eq!(texture.encoded, bytes);
+    }
+
+    #[test]
+    fn floating_pictures_are_linear_and_coded_again() {
+        let picture =
+            DynamicImage::ImageRgb32F(Rgb32FImage::from_pixel(1, 1, image::Rgb([0.5, 4.0, 0.0])));
+        let texture = decode("t", &encoded(ImageFormat::OpenExr, &picture), [true; 2]).unwrap();
+        assert_eq!(texture.texels, [[0.5, 4.0, 0.0]]);
+        assert_eq!(texture.mime_type, "image/png");
+        let again = decode("t", &texture.encoded, [true; 2]).unwrap();
+        assert!((again.texels[0][0] - 0.5).abs() < 0.01, "{:?}", again.texels);
+    }
+
+    #[test]
+    fn an_emission_picture_laid_on_differently_becomes_its_mean() {
+        let texture = |texels: Vec<[f32; 3]>| Texture { texels, ..Texture::default() };
+        let mut scene = Scene {
+            textures: vec![texture(vec![[3.0, 0.5, 0.0]]), texture(vec![[1.0; 3], [0.0; 3]])],
+            ..Scene::default()
+        };
+        let mut material = Material { emission: Rgb::splat(4.0), ..Material::default() };
+        let picture = |texture, set| {
+            Some(Picture { texture, mapping: UvMapping { set, ..UvMapping::default() } })
+        };
+        let mapping = attach_pictures(&mut scene, &mut material, picture(0, 0), picture(1, 1));
+        assert_eq!((mapping.set, material.texture, material.emission_texture), (0, Some(0), None));
+        assert_eq!(material.emission, Rgb::splat(2.0));
+        assert_eq!(scene.textures[0].texels, [[1.0, 0.5, 0.0]]);
+        assert_eq!(scene.notes.len(), 1);
+    }
+
+    #[test]
+    fn what_is_no_picture_is_refused() {
+        assert!(decode("t", b"not a picture", [true; 2]).is_err());
+        assert!(decode("t", b"\x89PNG\r\n\x1a\n broken", [true; 2]).is_err());
+    }
+}

@@ -1,0 +1,216 @@
+//! OBJ and MTL.
+
+use glam::{DVec2, DVec3, Vec3};
+use radiosity::scene::{LoadOptions, Scene, load};
+
+use crate::{Folder, red_png};
+
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+fn scene(text: &str) -> Scene {
+    Folder::new().with("s.obj", text).load("s.obj").expect("a readable scene")
+}
+
+fn error(text: &str) -> String {
+    Folder::new().with("s.obj", text).load("s.obj").unwrap_err().to_string()
+}
+
+fn with_material(mtl: &str) -> Scene {
+    let obj = format!("mtllib m.mtl\n{SQUARE}usemtl a\nf 1 2 3 4\n");
+    let folder = Folder::new().with("s.obj", obj).with("m.mtl", mtl).with("red.png", red_png());
+    folder.load("s.obj").expect("a readable scene")
+}
+
+#[test]
+fn coordinates_are_the_nearest_doubles() {
+    let scene = scene("v 0.5528 0 0\nv 1 0 0\nv 0 1e-3 0.1\nf 1 2 3\n");
+    assert_eq!(scene.positions[0].x, 0.5528);
+    assert_eq!(scene.positions[2], DVec3::new(0.0, 1e-3, 0.1));
+}
+
+#[test]
+fn units_scale_positions() {
+    let folder = Folder::new().with("s.obj", format!("{SQUARE}f 1 2 3 4"));
+    let options = |metres_per_unit| LoadOptions { metres_per_unit, ..LoadOptions::default() };
+    let scene = load(&folder.path("s.obj"), &options(0.01)).unwrap();
+    assert_eq!(scene.bounds(), Some((DVec3::ZERO, DVec3::new(0.01, 0.01, 0.0))));
+    assert!((scene.extent() - 0.01 * 2f64.sqrt()).abs() < 1e-15);
+    for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(load(&folder.path("s.obj"), &options(wrong)).is_err());
+    }
+}
+
+#[test]
+fn polygons_stay_polygons_and_triangles_triangles() {
+    let l = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\nf 1 2 -1\n";
+    let sizes = |scene: Scene| scene.faces.iter().map(|f| f.vertices.len()).collect::<Vec<_>>();
+    assert_eq!(sizes(scene(l)), [6, 3]);
+    assert_eq!(sizes(scene(&format!("{SQUARE}f 1 2 3\nf 1 3 4\n"))), [3, 3]);
+}
+
+#[test]
+fn odd_but_legal_syntax_is_read() {
+    let text = b"\xef\xbb\xbfv\t0 0 0 # origin\r\nv 1 0 \\\r\n 0\r\n# caf\xe9\r\ng\tw\xe4nde\r\nv 1 1 0 1\r\nf -3//  -2//\t-1// # end\r\n";
+    let folder = Folder::new().with("s.obj", text);
+    let scene = folder.load("s.obj").unwrap();
+    assert_eq!(scene.positions, [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0)]);
+    assert_eq!(scene.objects, ["w\u{fffd}nde"]);
+}
+
+#[test]
+fn faces_may_stand_before_their_vertices() {
+    assert_eq!(scene(&format!("f 1 2 3 4\n{SQUARE}")).faces.len(), 1);
+}
+
+#[test]
+fn wrong_numbers_and_indices_are_refused_with_their_line() {
+    for (line, word) in [
+        ("v 0 nan 0", "nan"),
+        ("v 0 0 1e999", "1e999"),
+        ("v 0 0", "3 coordinates"),
+        ("v 1 1 1 0", "infinitely far"),
+        ("vt x", "\"x\""),
+        ("f 1 2 5", "only 4"),
+        ("f 1 2 0", "count from 1"),
+        ("f 1 2 -5", "only 4 so far"),
+        ("f 1/1 2/1 3/1", "texture coordinate 1"),
+        ("f 1//9 2 3", "normal 9"),
+        ("f a b c", "\"a\""),
+        ("f 1/1/1/1 2 3", "too many"),
+    ] {
+        let message = error(&format!("{SQUARE}{line}\nf 1 2 3 4\n"));
+        assert!(message.contains("s.obj:5: ") && message.contains(word), "{line}: {message}");
+    }
+}
+
+#[test]
+fn coordinates_beyond_sense_are_refused() {
+    assert!(error("v 0 0 0\nv 1 0 0\nv 0 1e200 0\nf 1 2 3\n").contains("beyond"));
+}
+
+#[test]
+fn points_and_lines_are_ignored_with_a_note() {
+    let scene = scene(&format!("{SQUARE}p 1 2 3\nl 1 2 3\nf 1 2\nf\nf 1 2 3 4\n"));
+    assert_eq!(scene.faces.len(), 1);
+    assert!(
+        scene.notes.contains(&"4 point-or-line elements ignored".to_owned()),
+        "{:?}",
+        scene.notes
+    );
+}
+
+#[test]
+fn faces_with_some_texture_coordinates_have_none() {
+    let text = format!(
+        "mtllib m.mtl\n{SQUARE}vt 0 0\nvt 1 0\nvt 1 1\nusemtl a\nf 1 2 3/3\nf 1/1 2/2 4/3\n"
+    );
+    let folder = Folder::new()
+        .with("s.obj", text)
+        .with("m.mtl", "newmtl a\nmap_Kd red.png")
+        .with("red.png", red_png());
+    let scene = folder.load("s.obj").unwrap();
+    assert!(scene.faces[0].uvs.is_empty());
+    assert_eq!(scene.faces[1].uvs.len(), 3);
+}
+
+#[test]
+fn unknown_material_is_grey_with_a_note() {
+    let scene = scene(&format!("mtllib none.mtl\n{SQUARE}usemtl x y\nf 1 2 3 4\n"));
+    assert_eq!(scene.materials[0].reflectance, DVec3::splat(0.5));
+    assert_eq!(scene.faces[0].tint, DVec3::ONE);
+    assert!(scene.notes[0].contains("none.mtl"), "{:?}", scene.notes);
+    assert!(scene.notes[1].contains("s.obj:6: unknown material \"x y\""), "{:?}", scene.notes);
+}
+
+#[test]
+fn libraries_may_be_several_or_have_spaces_in_their_name() {
+    let text = format!(
+        "mtllib my lib.mtl\nmtllib\ta.mtl b.mtl\n{SQUARE}usemtl one\nf 1 2 3\nusemtl\ttwo\nf 1 3 4\nusemtl three\nf 4 3 2\n"
+    );
+    let folder = Folder::new()
+        .with("s.obj", text)
+        .with("my lib.mtl", "newmtl one\nKd 0.1")
+        .with("a.mtl", "newmtl two\nKd 0.2")
+        .with("b.mtl", "newmtl three\nKd 0.3");
+    let scene = folder.load("s.obj").unwrap();
+    let reflectance =
+        |face: usize| scene.materials[scene.faces[face].material as usize].reflectance.x;
+    assert_eq!([0, 1, 2].map(reflectance), [0.1, 0.2, 0.3]);
+    assert!(scene.notes.is_empty(), "{:?}", scene.notes);
+}
+
+#[test]
+fn emission_is_radiance_and_white_is_clamped() {
+    let scene = with_material("newmtl a\nKd 1 0.5 0\nKe 10 20 30\n");
+    assert_eq!(scene.materials[0].reflectance, DVec3::new(0.99, 0.5, 0.0));
+    assert_eq!(scene.materials[0].emission, DVec3::new(10.0, 20.0, 30.0));
+    assert!(scene.is_lit());
+    assert_eq!(scene.emitters().collect::<Vec<_>>(), [0]);
+    assert_eq!(scene.notes, ["reflectance above 0.99 clamped in \"a\""]);
+}
+
+#[test]
+fn two_sidedness_can_be_overridden() {
+    let folder = Folder::new().with("s.obj", format!("{SQUARE}f 1 2 3 4"));
+    let options = LoadOptions { two_sided: Some(true), ..LoadOptions::default() };
+    assert!(load(&folder.path("s.obj"), &options).unwrap().materials[0].double_sided);
+}
+
+#[test]
+fn textures_are_counted_from_the_top_after_their_options() {
+    let obj = format!(
+        "mtllib m.mtl\n{SQUARE}vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3 4/4\n"
+    );
+    let folder = Folder::new()
+        .with("s.obj", obj)
+        .with("m.mtl", "newmtl a\nmap_Kd -s 2 4 -o 0.5 0.25 -clamp on red.png\n")
+        .with("red.png", red_png());
+    let scene = folder.load("s.obj").unwrap();
+    let expected = [[0.5, 0.75], [2.5, 0.75], [2.5, -3.25], [0.5, -3.25]].map(DVec2::from);
+    assert_eq!(scene.faces[0].uvs[..], expected);
+    assert_eq!(scene.textures[0].repeat, [false; 2]);
+    assert_eq!(scene.textures[0].texels, [[1.0, 0.0, 0.0]]);
+    assert_eq!(scene.materials[0].reflectance, DVec3::splat(0.99));
+}
+
+#[test]
+fn quads_with_a_warped_picture_are_split_without_a_word() {
+    let obj = "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 1.5 1 0\nv 0.5 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n\
+        usemtl a\nf 1/1 2/2 3/3 4/4\n";
+    let folder = Folder::new().with("s.obj", obj).with("red.png", red_png());
+    let textured = folder.with("m.mtl", "newmtl a\nmap_Kd red.png\nKd 0.5").load("s.obj").unwrap();
+    assert_eq!((textured.faces.len(), textured.notes.len()), (2, 0), "{:?}", textured.notes);
+    assert_eq!(textured.faces[1].uvs.len(), 3);
+    let plain = Folder::new().with("s.obj", obj).with("m.mtl", "newmtl a\nKd 0.5");
+    assert_eq!(plain.load("s.obj").unwrap().faces.len(), 1);
+}
+
+#[test]
+fn missing_picture_leaves_the_factor_and_a_note() {
+    let scene = with_material("newmtl a\nKd 0.25\nmap_Kd gone.png\n");
+    assert_eq!(scene.materials[0].texture, None);
+    assert_eq!(scene.materials[0].reflectance, DVec3::splat(0.25));
+    assert!(scene.notes[0].contains("gone.png"), "{:?}", scene.notes);
+}
+
+/// Two squares that meet at a right angle in the edge between vertices 2 and 3.
+const ROOF: &str = "v -1 -1 0\nv 0 0 0\nv 0 0 1\nv -1 -1 1\nv 1 -1 0\nv 1 -1 1\n";
+
+#[test]
+fn smoothing_groups_average_by_area_inside_the_group_only() {
+    let scene = scene(&format!("{ROOF}s 1\nf 3 2 1 4\nf 2 3 6 5\n"));
+    let normals = &scene.faces[0].normals;
+    assert!((normals[0] - Vec3::Y).length() < 1e-6, "{normals:?}");
+    assert!((normals[2] - Vec3::new(-1.0, 1.0, 0.0).normalize()).length() < 1e-6, "{normals:?}");
+    for apart in ["s 1\nf 3 2 1 4\ns 2\nf 2 3 6 5\n", "s off\nf 3 2 1 4\nf 2 3 6 5\n"] {
+        let scene = crate::obj::scene(&format!("{ROOF}{apart}"));
+        assert!(scene.faces.iter().all(|face| face.normals.is_empty()), "{apart}");
+    }
+}
+
+#[test]
+fn given_normals_win_over_smoothing_groups() {
+    let flat = "vn -0.7071 0.7071 0\nvn 0.7071 0.7071 0\n";
+    let scene = scene(&format!("{ROOF}{flat}s 1\nf 3//1 2//1 1//1 4//1\nf 2//2 3//2 6//2 5//2\n"));
+    assert!(scene.faces.iter().all(|face| face.normals.is_empty()));
+}
