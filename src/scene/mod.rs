@@ -106,12 +106,3 @@ impl Scene {
         !self.lights.is_empty() || self.emitters().next().is_some()
     }
 }
-
-impl Scene {
-    /// Diagonal of the bounding box, m.
-    pub fn extent(&self) -> f64 {
-        let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let (low, high) = self.positions.iter().fold(empty, |(l, h), &p| (l.min(p), h.max(p)));
-        (high - low).length()
-    }
-}

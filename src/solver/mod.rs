@@ -95,12 +95,14 @@ const GATHER_SHARE: f64 = 0.1;
 /// Lights `surfaces`, telling `observe` about each step; when that breaks off, what is there is finished quickly.
 ///
 /// # Errors
-/// When nothing emits light.
+/// When nothing emits light, or a setting is out of its range.
 pub fn solve(
     surfaces: &Surfaces,
     settings: &Settings,
     mut observe: impl FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<Solution> {
+    settings.validate()?;
+    settings.validate_for(surfaces.area(), surfaces.extent)?;
     let mut observer = Observer(&mut observe);
     let mut mesh = Mesh::new(surfaces, settings);
     let occluders = Occluders::new(surfaces);
