@@ -23,10 +23,12 @@ pub(super) fn refine(
         mesh.patches.iter().map(|patch| patch.root).filter(|&e| reflects(mesh, e)).collect();
     let corners: Vec<VertexId> = corners(mesh, &candidates);
     let mut gathered = gatherer.light(mesh, corners);
+    let mut flow = ControlFlow::Continue(());
     for level in 0..settings.max_level {
         let share = (f64::from(level) + 1.0) / (f64::from(settings.max_level) + 1.0);
-        if observer.tell(Phase::Gathering, share).is_break() {
-            return (gathered, ControlFlow::Break(()));
+        flow = observer.tell(Phase::Gathering, share);
+        if flow.is_break() {
+            break;
         }
         candidates.retain(|&e| !mesh[e].is_leaf() || oracle.may_divide(mesh, e));
         let middles: Vec<Middle> = candidates.iter().map(|&e| mesh.middle(e)).collect();
@@ -45,7 +47,7 @@ pub(super) fn refine(
         candidates = next;
     }
     light(world, mesh);
-    (gathered, ControlFlow::Continue(()))
+    (gathered, flow)
 }
 
 /// Corners of elements, without those of black surfaces.

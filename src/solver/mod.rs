@@ -85,7 +85,9 @@ struct Observer<'a>(&'a mut dyn FnMut(&Progress) -> ControlFlow<()>);
 
 impl Observer<'_> {
     fn tell(&mut self, phase: Phase, done: f64) -> ControlFlow<()> {
-        (self.0)(&Progress { phase, done: done.clamp(0.0, 1.0) })
+        // A phase without steps has no share of them done.
+        let done = if done.is_finite() { done.clamp(0.0, 1.0) } else { 0.0 };
+        (self.0)(&Progress { phase, done })
     }
 }
 
@@ -152,6 +154,8 @@ fn gather(
     let fine = GATHER_SHARE * settings.tolerance * level;
     let gatherer = Gatherer::new(world.surfaces, &solution.light, fine);
     if settings.uniform.is_some() {
+        // One step, which there is no breaking off.
+        let _ = observer.tell(Phase::Gathering, 0.0);
         solution.hemicubes[1] = indirect_pass::everywhere(&gatherer, mesh);
         return;
     }
