@@ -95,7 +95,10 @@ impl Settings {
         let cells = self.hemicube_resolution;
         in_range("hemicube-resolution", f64::from(cells), 32.0, 1024.0)?;
         if cells % 2 == 1 {
-            return Err(setting("hemicube-resolution", format!("{cells} is odd; use an even number")));
+            return Err(setting(
+                "hemicube-resolution",
+                format!("{cells} is odd; use an even number"),
+            ));
         }
         Ok(())
     }
@@ -135,7 +138,8 @@ fn bearable(name: &'static str, area: f64, size: f64, most: f64) -> Result<()> {
         return Ok(());
     }
     let enough = (area / most).sqrt();
-    let message = format!("{size} m would make some {count:.0e} pieces; use {enough:.2e} m or more");
+    let message =
+        format!("{size} m would make some {count:.0e} pieces; use {enough:.2e} m or more");
     Err(setting(name, message))
 }
 
@@ -192,7 +196,10 @@ mod tests {
             ("tolerance", Settings { tolerance: f64::NAN, ..medium.clone() }),
             ("min-element", Settings { min_element: Length::Metres(-1.0), ..medium.clone() }),
             ("max-level", Settings { max_level: 17, ..medium.clone() }),
-            ("patch-size", Settings { patch_size: Length::Metres(f64::INFINITY), ..medium.clone() }),
+            (
+                "patch-size",
+                Settings { patch_size: Length::Metres(f64::INFINITY), ..medium.clone() },
+            ),
             ("uniform", Settings { uniform: Some(0.0), ..medium.clone() }),
             ("stop", Settings { stop: 0.0, ..medium.clone() }),
             ("hemicube-resolution", Settings { hemicube_resolution: 33, ..medium.clone() }),
