@@ -47,7 +47,7 @@ pub struct Scene {
 }
 
 /// A planar polygon; its per-corner lists are empty or as long as `vertices`.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Face {
     /// Indices into [`Scene::positions`], at least three.
     pub vertices: SmallVec<[u32; 4]>,
@@ -61,6 +61,13 @@ pub struct Face {
     pub material: u32,
     /// Index into [`Scene::objects`].
     pub object: u32,
+}
+
+impl Default for Face {
+    fn default() -> Self {
+        let (vertices, normals, uvs) = (SmallVec::new(), SmallVec::new(), SmallVec::new());
+        Self { vertices, normals, uvs, tint: Rgb::ONE, material: 0, object: 0 }
+    }
 }
 
 /// How to read a file that leaves something open.

@@ -10,12 +10,14 @@ use rayon::prelude::*;
 use smallvec::SmallVec;
 
 use super::ElementLight;
+use super::direct_pass::World;
 use super::transport::turn;
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::{DeltaFactors, Hemicube, Sight};
 use crate::mesh::{ElementId, Mesh, VertexId};
 use crate::surface::Surfaces;
+use crate::visibility::Occluders;
 
 /// Cells along the edge of the hemicubes over vertices: they measure visibility only, and vertices are many.
 const RESOLUTION: usize = 64;
@@ -23,6 +25,7 @@ const RESOLUTION: usize = 64;
 /// Gathers indirect light at points.
 pub(super) struct Gatherer<'a> {
     surfaces: &'a Surfaces,
+    occluders: &'a Occluders,
     light: &'a ElementLight,
     delta: DeltaFactors,
     /// Elements whose parts may change a result by more than this, W/m², are taken in parts.
@@ -30,8 +33,9 @@ pub(super) struct Gatherer<'a> {
 }
 
 impl<'a> Gatherer<'a> {
-    pub(super) fn new(surfaces: &'a Surfaces, light: &'a ElementLight, fine: f64) -> Self {
-        Self { surfaces, light, delta: DeltaFactors::new(RESOLUTION), fine }
+    pub(super) fn new(world: World<'a>, light: &'a ElementLight, fine: f64) -> Self {
+        let World { surfaces, occluders, .. } = world;
+        Self { surfaces, occluders, light, delta: DeltaFactors::new(RESOLUTION), fine }
     }
 
     /// Evaluates indirect light at those of the vertices that lack it; returns how many they were.
@@ -47,7 +51,7 @@ impl<'a> Gatherer<'a> {
         let lit: Vec<Rgb> = dark
             .par_iter()
             .map_init(
-                || Hemicube::new(&self.delta),
+                || Hemicube::new(&self.delta, self.occluders),
                 |hemicube, &vertex| self.gather(mesh, hemicube, vertex),
             )
             .collect();

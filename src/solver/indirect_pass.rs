@@ -44,6 +44,12 @@ pub(super) fn refine(
             }
             next.extend_from_slice(&mesh[element].children);
         }
+        eprintln!(
+            "level {level}: {} candidates {} gathered, next {}",
+            candidates.len(),
+            gathered,
+            next.len()
+        );
         candidates = next;
     }
     light(world, mesh);

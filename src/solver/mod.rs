@@ -121,7 +121,7 @@ pub fn solve(
         direct_pass::refine(world, settings, &mut mesh, &mut observer)
     };
     let mut light = ElementLight::direct(&mesh);
-    let mut shooting = Shooting::new(&mesh, surfaces, settings, &light);
+    let mut shooting = Shooting::new(&mesh, world, settings, &light);
     let stop = match refined {
         ControlFlow::Continue(()) => shooting.run(settings, &mut observer),
         ControlFlow::Break(()) => Stop::Cancelled,
@@ -152,7 +152,7 @@ fn gather(
     let mesh = &mut solution.mesh;
     let level = direct_pass::mean_radiosity(mesh);
     let fine = GATHER_SHARE * settings.tolerance * level;
-    let gatherer = Gatherer::new(world.surfaces, &solution.light, fine);
+    let gatherer = Gatherer::new(world, &solution.light, fine);
     if settings.uniform.is_some() {
         // One step, which there is no breaking off.
         let _ = observer.tell(Phase::Gathering, 0.0);

@@ -7,6 +7,7 @@
 
 use rayon::prelude::*;
 
+use super::direct_pass::World;
 use super::energy::Energy;
 use super::transport::{Row, row};
 use super::{ElementLight, Observer, Phase, Stop};
@@ -15,6 +16,7 @@ use crate::form_factor::hemicube::{DeltaFactors, Hemicube};
 use crate::mesh::{Mesh, PatchId};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
+use crate::visibility::Occluders;
 
 /// Rows computed at once, ahead of their shots. A number of its own, so that threads change nothing.
 const BATCH: usize = 16;
@@ -26,6 +28,7 @@ const KEPT_ENTRIES: usize = 8_000_000;
 pub(super) struct Shooting<'a> {
     mesh: &'a Mesh,
     surfaces: &'a Surfaces,
+    occluders: &'a Occluders,
     delta: DeltaFactors,
     rows: Vec<Option<Row>>,
     kept: usize,
@@ -43,7 +46,7 @@ impl<'a> Shooting<'a> {
     /// Books the direct light: emitters have shot, patches hold what they reflect of it.
     pub(super) fn new(
         mesh: &'a Mesh,
-        surfaces: &'a Surfaces,
+        World { surfaces, occluders, .. }: World<'a>,
         settings: &Settings,
         light: &ElementLight,
     ) -> Self {
@@ -51,6 +54,7 @@ impl<'a> Shooting<'a> {
         let mut shooting = Self {
             mesh,
             surfaces,
+            occluders,
             delta: DeltaFactors::new(settings.hemicube_resolution as usize),
             rows: vec![None; mesh.patches.len()],
             kept: 0,
@@ -148,11 +152,12 @@ impl<'a> Shooting<'a> {
         }
         let missing: Vec<PatchId> =
             patches.iter().copied().filter(|patch| self.rows[patch.index()].is_none()).collect();
-        let (mesh, surfaces, delta) = (self.mesh, self.surfaces, &self.delta);
+        let (mesh, surfaces) = (self.mesh, self.surfaces);
+        let (delta, occluders) = (&self.delta, self.occluders);
         let rows: Vec<Row> = missing
             .par_iter()
             .map_init(
-                || Hemicube::new(delta),
+                || Hemicube::new(delta, occluders),
                 |hemicube, &patch| row(mesh, surfaces, hemicube, patch),
             )
             .collect();

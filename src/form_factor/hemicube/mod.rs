@@ -11,6 +11,7 @@ mod raster;
 use glam::{DMat3, DVec3};
 
 use crate::mesh::{Patch, PatchId};
+use crate::visibility::Occluders;
 
 pub use delta::DeltaFactors;
 use raster::{Footprint, Raster, first_centre};
@@ -25,6 +26,7 @@ const NOTHING: u32 = u32::MAX;
 #[derive(Clone, Debug)]
 pub struct Hemicube<'a> {
     delta: &'a DeltaFactors,
+    occluders: &'a Occluders,
     raster: Raster,
     eye: DVec3,
     frame: DMat3,
@@ -51,11 +53,12 @@ pub struct Sight {
 }
 
 impl<'a> Hemicube<'a> {
-    /// A hemicube with cells as `delta` has them.
-    pub fn new(delta: &'a DeltaFactors) -> Self {
+    /// A hemicube with cells as `delta` has them; what falls between their centres is looked for by a ray.
+    pub fn new(delta: &'a DeltaFactors, occluders: &'a Occluders) -> Self {
         let cells = delta.cells().len();
         Self {
             delta,
+            occluders,
             raster: Raster::new(delta.resolution()),
             eye: DVec3::ZERO,
             frame: DMat3::IDENTITY,
@@ -113,9 +116,7 @@ impl<'a> Hemicube<'a> {
         if covered > 0.0 {
             return f64::from(kept / covered).min(1.0);
         }
-        let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
-        let cell = self.cell(middle);
-        f64::from(u8::from(cell.is_some_and(|cell| self.item[cell] == patch.0)))
+        self.glimpse(corners)
     }
 
     /// Sum of the delta factors of cells that see nothing.
@@ -139,13 +140,14 @@ impl<'a> Hemicube<'a> {
             drawn = true;
             for (row, columns) in footprint.rows(resolution) {
                 covered += delta.sum(row, columns.clone());
-                let mut nearness = footprint.nearness(row, columns.start);
+                let [first, step] = footprint.nearness(row, columns.start);
                 let cells = row * resolution + columns.start..row * resolution + columns.end;
-                for (depth, item) in depths[cells.clone()].iter_mut().zip(&mut items[cells]) {
+                let cells = depths[cells.clone()].iter_mut().zip(&mut items[cells]);
+                for (column, (depth, item)) in cells.enumerate() {
+                    let nearness = first + step * column as f32;
                     let nearer = nearness > *depth;
                     *depth = if nearer { nearness } else { *depth };
                     *item = if nearer { index } else { *item };
-                    nearness += footprint.depth[1];
                 }
             }
         });
@@ -157,23 +159,20 @@ impl<'a> Hemicube<'a> {
 
     fn sight(&self, index: u32, patch: &Patch) -> Option<Sight> {
         let [covered, kept] = self.sums[index as usize].map(f64::from);
-        let visible = if covered > 0.0 { (kept / covered).min(1.0) } else { self.glimpse(patch) };
         let front = (self.eye - patch.corners[0]).dot(patch.normal) > 0.0;
+        let visible = match covered {
+            0.0 if front => self.glimpse(&patch.corners),
+            0.0 => 0.0,
+            covered => (kept / covered).min(1.0),
+        };
         (visible > 0.0).then_some(Sight { patch: PatchId(index), visible, delta: kept, front })
     }
 
-    /// Whether a patch too small to cover a cell's centre is in front of what the cell sees.
-    fn glimpse(&self, patch: &Patch) -> f64 {
-        let middle = patch.corners.iter().sum::<DVec3>() / patch.corners.len() as f64;
-        let local = self.frame * (middle - self.eye);
-        let depth = local.abs().max_element();
-        let clear = |cell| self.depth[cell] * depth as f32 <= 1.0 + 1e-3;
-        f64::from(u8::from(self.cell(middle).is_some_and(clear)))
-    }
-
-    fn cell(&self, point: DVec3) -> Option<usize> {
-        let (row, column) = self.raster.cell(self.frame * (point - self.eye))?;
-        Some(row * self.delta.resolution() + column)
+    /// Whether the middle of a polygon that covers no cell's centre is seen, 0 or 1.
+    fn glimpse(&self, corners: &[DVec3]) -> f64 {
+        let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
+        let above = (middle - self.eye).dot(self.frame.row(2)) > 0.0;
+        f64::from(u8::from(above && !self.occluders.blocks(self.eye, middle)))
     }
 }
 
@@ -189,10 +188,10 @@ impl Footprint<'_> {
         })
     }
 
-    /// Reciprocal depth at a cell's centre.
-    fn nearness(&self, row: usize, column: usize) -> f32 {
+    /// Reciprocal depth at a cell's centre, and what it grows by from column to column.
+    fn nearness(&self, row: usize, column: usize) -> [f32; 2] {
         let [origin, by_column, by_row] = self.depth;
-        origin + by_column * column as f32 + by_row * (row - self.first_row) as f32
+        [origin + by_column * column as f32 + by_row * (row - self.first_row) as f32, by_column]
     }
 }
 

@@ -17,7 +17,7 @@ use crate::scene::{Material, Scene};
 
 /// Reads all materials into `scene`; returns how each of them maps texture coordinates.
 pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Vec<UvMapping>> {
-    let mut reader = Reader { file, scene, textures: HashMap::new(), mirrored: 0 };
+    let mut reader = Reader { file, scene, pictures: HashMap::new(), mirrored: 0 };
     let mut mappings = Vec::new();
     let (mut metals, mut clear) = (Vec::new(), Vec::new());
     for (index, from) in file.root.materials.iter().enumerate() {
@@ -32,7 +32,7 @@ pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Vec<UvMapping>> {
         mappings.push(mapping);
     }
     let mirrored = reader.mirrored;
-    note_count(&mut scene.notes, mirrored, "picture", "repeated instead of mirrored");
+    note_count(&mut scene.notes, mirrored, "texture use", "repeated instead of mirrored");
     if !metals.is_empty() {
         scene
             .notes
@@ -52,8 +52,8 @@ fn is_metal(material: &json::Material) -> bool {
 struct Reader<'a> {
     file: &'a File,
     scene: &'a mut Scene,
-    /// Index into the scene's textures by glTF texture; `None` for unreadable ones.
-    textures: HashMap<usize, Option<u32>>,
+    /// Index into the scene's textures by glTF image and wrapping; `None` for unreadable ones.
+    pictures: HashMap<(usize, [bool; 2]), Option<u32>>,
     mirrored: usize,
 }
 
@@ -79,43 +79,40 @@ impl Reader<'_> {
 
     fn picture(&mut self, info: Option<&Info>) -> Result<Option<Picture>> {
         let Some(info) = info else { return Ok(None) };
-        let index = info.index.value();
-        let texture = match self.textures.get(&index) {
+        let texture = self.file.get(info.index, "texture")?;
+        let repeat = match texture.sampler {
+            Some(sampler) => self.repeat(self.file.get(sampler, "sampler")?),
+            None => [true; 2],
+        };
+        let key = (texture.source.value(), repeat);
+        let texture = match self.pictures.get(&key) {
             Some(&known) => known,
             None => {
-                let read = self.texture(info.index)?;
-                self.textures.insert(index, read);
+                let read = self.decoded(texture.source, repeat);
+                self.pictures.insert(key, read);
                 read
             }
         };
         Ok(texture.map(|texture| Picture { texture, mapping: mapping(info) }))
     }
 
-    /// Reads a texture; an unreadable picture costs a note and the texture, not the scene.
-    fn texture(&mut self, index: Index<json::Texture>) -> Result<Option<u32>> {
-        let texture = self.file.get(index, "texture")?;
-        let repeat = match texture.sampler {
-            Some(sampler) => self.repeat(self.file.get(sampler, "sampler")?),
-            None => [true; 2],
+    /// Reads a picture into the scene; an unreadable one costs a note, not the scene.
+    fn decoded(&mut self, index: Index<json::Image>, repeat: [bool; 2]) -> Option<u32> {
+        let Some(image) = self.file.root.get(index) else {
+            self.scene.notes.push("a texture without PNG or JPEG picture left out".to_owned());
+            return None;
         };
-        let Some(image) = self.file.root.get(texture.source) else {
-            self.scene
-                .notes
-                .push(format!("texture {index} left out: it has no PNG or JPEG picture"));
-            return Ok(None);
-        };
-        let unnamed = || format!("image {}", texture.source);
         let uri = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
-        let name = image.name.clone().or(uri.map(str::to_owned)).unwrap_or_else(unnamed);
-        let picture = self.encoded(image).and_then(|bytes| decode(&name, &bytes, repeat));
-        match picture {
+        let name = image.name.as_deref().or(uri);
+        let name = name.map_or_else(|| format!("image {index}"), str::to_owned);
+        match self.encoded(image).and_then(|bytes| decode(&name, &bytes, repeat)) {
             Ok(picture) => {
                 self.scene.textures.push(picture);
-                Ok(Some(self.scene.textures.len() as u32 - 1))
+                Some(self.scene.textures.len() as u32 - 1)
             }
             Err(why) => {
                 self.scene.notes.push(format!("picture \"{name}\" left out: {why}"));
-                Ok(None)
+                None
             }
         }
     }
