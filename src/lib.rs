@@ -10,6 +10,7 @@
 
 pub mod colour;
 pub mod error;
+mod file;
 pub mod settings;
 
 pub mod scene;

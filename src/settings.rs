@@ -1,4 +1,6 @@
-//! What a user may choose about a solution, and the presets that choose it.
+//! What a user may choose about a solution, the presets that choose it, and what is out of range.
+
+use crate::error::{Error, Result};
 
 /// How finely and how long to compute; every field has a default that works on a room.
 ///
@@ -22,7 +24,8 @@ pub struct Settings {
     /// Some(size): no refinement where the light asks for it; every element is split until its
     /// longest side is at most `size`, m.
     pub uniform: Option<f64>,
-    /// Share of all emitted power that may be left unshot when the solver stops (default 0.001).
+    /// Share of all emitted power that may be left unshot when the solver stops
+    /// (1e-9..=1; default 0.001).
     pub stop: f64,
     /// Most shots to fire, emitters included; `None` goes on until `stop` is reached.
     pub max_shots: Option<usize>,
@@ -66,11 +69,78 @@ impl Settings {
     }
 }
 
+/// Patches beyond this number would take hours, and more memory than there is.
+const MOST_PATCHES: f64 = 2e5;
+
+/// Elements of a uniform mesh beyond this number would take more memory than there is.
+const MOST_UNIFORM_ELEMENTS: f64 = 1e7;
+
 impl Settings {
     /// Longest side of a patch in a scene with a bounding box of this diagonal, m.
     pub fn patch_length(&self, extent: f64) -> f64 {
         self.patch_size.metres(extent).max(self.uniform.unwrap_or(0.0))
     }
+
+    /// Whether every setting is in its range.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] about the first that is not.
+    pub fn validate(&self) -> Result<()> {
+        in_range("tolerance", self.tolerance, 0.001, 1.0)?;
+        positive("min-element", self.min_element.number())?;
+        in_range("max-level", f64::from(self.max_level), 0.0, 16.0)?;
+        positive("patch-size", self.patch_size.number())?;
+        positive("uniform", self.uniform.unwrap_or(1.0))?;
+        in_range("stop", self.stop, 1e-9, 1.0)?;
+        let cells = self.hemicube_resolution;
+        in_range("hemicube-resolution", f64::from(cells), 32.0, 1024.0)?;
+        if cells % 2 == 1 {
+            return Err(setting(
+                "hemicube-resolution",
+                format!("{cells} is odd; use an even number"),
+            ));
+        }
+        Ok(())
+    }
+
+    /// Whether a mesh of surfaces of this area, m², in a bounding box of this diagonal, m, will be of a bearable size.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] about the size that is too small.
+    pub fn validate_for(&self, area: f64, extent: f64) -> Result<()> {
+        bearable("patch-size", area, self.patch_length(extent), MOST_PATCHES)?;
+        let uniform = self.uniform.unwrap_or(f64::INFINITY);
+        bearable("uniform", area, uniform, MOST_UNIFORM_ELEMENTS)
+    }
+}
+
+fn setting(name: &'static str, message: String) -> Error {
+    Error::Setting { name, message }
+}
+
+fn in_range(name: &'static str, value: f64, low: f64, high: f64) -> Result<()> {
+    if (low..=high).contains(&value) {
+        return Ok(());
+    }
+    Err(setting(name, format!("{value} is out of range; use {low} to {high}")))
+}
+
+fn positive(name: &'static str, value: f64) -> Result<()> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err(setting(name, format!("{value} is no length; use a number above 0")))
+}
+
+fn bearable(name: &'static str, area: f64, size: f64, most: f64) -> Result<()> {
+    let count = area / (size * size);
+    if count <= most {
+        return Ok(());
+    }
+    let enough = (area / most).sqrt();
+    let message =
+        format!("{size} m would make some {count:.0e} pieces; use {enough:.2e} m or more");
+    Err(setting(name, message))
 }
 
 /// A length that may depend on the scene.
@@ -90,10 +160,60 @@ impl Length {
             Self::OfScene(share) => share * extent,
         }
     }
+
+    fn number(self) -> f64 {
+        let (Self::Metres(number) | Self::OfScene(number)) = self;
+        number
+    }
 }
 
 impl Default for Settings {
     fn default() -> Self {
         Self::medium()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(settings: &Settings) -> String {
+        settings.validate().map_err(|error| error.to_string()).expect_err("out of range")
+    }
+
+    #[test]
+    fn presets_are_in_range() {
+        for settings in [Settings::draft(), Settings::medium(), Settings::high()] {
+            assert!(settings.validate().is_ok(), "{settings:?}");
+            assert!(settings.validate_for(100.0, 10.0).is_ok(), "{settings:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_out_of_range_is_named() {
+        let medium = Settings::medium();
+        let wrong = [
+            ("tolerance", Settings { tolerance: f64::NAN, ..medium.clone() }),
+            ("min-element", Settings { min_element: Length::Metres(-1.0), ..medium.clone() }),
+            ("max-level", Settings { max_level: 17, ..medium.clone() }),
+            (
+                "patch-size",
+                Settings { patch_size: Length::Metres(f64::INFINITY), ..medium.clone() },
+            ),
+            ("uniform", Settings { uniform: Some(0.0), ..medium.clone() }),
+            ("stop", Settings { stop: 0.0, ..medium.clone() }),
+            ("hemicube-resolution", Settings { hemicube_resolution: 33, ..medium.clone() }),
+        ];
+        for (name, settings) in wrong {
+            assert!(refused(&settings).starts_with(name), "{}", refused(&settings));
+        }
+    }
+
+    #[test]
+    fn sizes_that_no_memory_holds_are_refused() {
+        let fine = Settings { uniform: Some(1e-4), ..Settings::medium() };
+        assert!(fine.validate_for(100.0, 10.0).is_err());
+        let fine = Settings { patch_size: Length::Metres(1e-3), ..Settings::medium() };
+        assert!(fine.validate_for(100.0, 10.0).is_err());
     }
 }

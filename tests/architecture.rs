@@ -4,9 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The library's modules in flow order; those in one entry do not use each other.
-const FLOW: [&[&str]; 14] = [
+const FLOW: [&[&str]; 15] = [
     &["colour"],
     &["error"],
+    &["file"],
     &["settings"],
     &["scene"],
     &["surface"],

@@ -9,7 +9,6 @@
 //! Colours are exposed and tone-mapped ([`crate::tone`]). On textured parts of a GLB or OBJ they
 //! are the light that the picture is multiplied by; a PLY has no pictures and shows their mean.
 
-mod file;
 mod glb;
 mod group;
 mod look;
@@ -20,6 +19,7 @@ mod ply;
 use std::path::Path;
 
 use crate::error::{Error, Result};
+use crate::file;
 use crate::reconstruct::TriMesh;
 use crate::tone::Exposure;
 

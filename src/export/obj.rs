@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::file;
 use super::group::{self, Group};
 use super::look::{Look, coded, singles};
 use super::picture::{self, Coding};
 use crate::error::{Error, Result};
+use crate::file;
 
 /// Writes the OBJ at `path`, and beside it a file of materials and the pictures in use.
 pub(crate) fn save(look: &Look, path: &Path) -> Result<()> {

@@ -18,4 +18,4 @@ pub use automatic_camera::automatic_camera;
 pub use display::Display;
 pub use false_colour::{FalseColour, Quantity};
 pub use picture::{Picture, RenderOptions, render};
-pub use save::save;
+pub use save::{check_writable, save};

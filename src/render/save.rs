@@ -1,33 +1,50 @@
 //! Writes pictures to files.
 
+use std::io;
 use std::path::Path;
 
-use image::{DynamicImage, ImageError, ImageFormat, Rgb32FImage};
+use image::{DynamicImage, ImageFormat, Rgb32FImage};
 
 use super::display::{Display, displayed};
 use super::picture::Picture;
 use crate::error::{Error, Result};
+use crate::file;
 
 /// Endings that [`save`] knows.
 const ENDINGS: &str = ".png, .hdr, .exr";
 
 /// Writes `picture` as the ending of `path` says: `.png` as `display` shows it, in 8-bit sRGB;
 /// `.hdr` and `.exr` the linear radiance, W/(m² sr), without lines and legend.
+/// Missing directories are made; the file appears whole or not at all.
 ///
 /// # Errors
 /// When the ending is another one, or the file cannot be written.
 pub fn save(picture: &Picture, path: &Path, display: &Display) -> Result<()> {
-    let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
-    let (image, format): (DynamicImage, _) = match ending.as_ref().and_then(|e| e.to_str()) {
-        Some("png") => (displayed(picture, display).into(), ImageFormat::Png),
-        Some("hdr") => (radiance(picture).into(), ImageFormat::Hdr),
-        Some("exr") => (radiance(picture).into(), ImageFormat::OpenExr),
-        _ => return Err(Error::UnknownFormat { path: path.to_owned(), known: ENDINGS }),
+    let format = format_of(path)?;
+    let image: DynamicImage = match format {
+        ImageFormat::Png => displayed(picture, display).into(),
+        _ => radiance(picture).into(),
     };
-    image.save_with_format(path, format).map_err(|error| match error {
-        ImageError::IoError(source) => Error::io(path)(source),
-        other => Error::format(path, other.to_string()),
-    })
+    file::replace(path, |out| image.write_to(out, format).map_err(io::Error::other))
+}
+
+/// Finds out before long work whether [`save`] could write to `path`; makes missing directories.
+///
+/// # Errors
+/// When the ending is unknown or no file can be made there.
+pub fn check_writable(path: &Path) -> Result<()> {
+    format_of(path)?;
+    file::probe(path)
+}
+
+fn format_of(path: &Path) -> Result<ImageFormat> {
+    let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
+    match ending.as_ref().and_then(|ending| ending.to_str()) {
+        Some("png") => Ok(ImageFormat::Png),
+        Some("hdr") => Ok(ImageFormat::Hdr),
+        Some("exr") => Ok(ImageFormat::OpenExr),
+        _ => Err(Error::UnknownFormat { path: path.to_owned(), known: ENDINGS }),
+    }
 }
 
 fn radiance(picture: &Picture) -> Rgb32FImage {

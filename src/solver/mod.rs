@@ -106,12 +106,14 @@ const ROUNDS: usize = 2;
 /// Lights `surfaces`, telling `observe` about each step; when that breaks off, what is there is finished quickly.
 ///
 /// # Errors
-/// When nothing emits light.
+/// When nothing emits light, or a setting is out of its range.
 pub fn solve(
     surfaces: &Surfaces,
     settings: &Settings,
     mut observe: impl FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<Solution> {
+    settings.validate()?;
+    settings.validate_for(surfaces.area(), surfaces.extent)?;
     let mut observer = Observer { observe: &mut observe, flow: ControlFlow::Continue(()) };
     let mut mesh = Mesh::new(surfaces, settings);
     let occluders = Occluders::new(surfaces);

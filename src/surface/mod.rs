@@ -88,6 +88,13 @@ pub fn surfaces_of(scene: &Scene) -> Surfaces {
     }
 }
 
+impl Surfaces {
+    /// Area of all surfaces, m².
+    pub fn area(&self) -> f64 {
+        self.list.iter().map(Surface::area).sum()
+    }
+}
+
 impl Surface {
     fn front(scene: &Scene, region: merge::Region) -> Self {
         let face = &scene.faces[region.faces[0]];

@@ -1,0 +1,123 @@
+//! Progress on stderr, and how long each phase takes.
+
+use std::io::IsTerminal;
+use std::time::Instant;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use radiosity::solver::{Phase, Progress};
+use serde::Serialize;
+
+use super::console;
+use super::options::ReportOptions;
+
+/// Steps of a progress bar.
+const STEPS: f64 = 1000.0;
+
+/// A finished phase.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Timing {
+    pub(crate) phase: &'static str,
+    pub(crate) seconds: f64,
+}
+
+/// Follows the work: a bar on a terminal, a line a phase elsewhere, nothing when quiet.
+#[derive(Debug)]
+pub(crate) struct Meter {
+    quiet: bool,
+    /// Tells of every tenth of a phase where there is no bar.
+    tenths: bool,
+    on_terminal: bool,
+    current: Option<Current>,
+    timings: Vec<Timing>,
+}
+
+#[derive(Debug)]
+struct Current {
+    phase: &'static str,
+    start: Instant,
+    bar: ProgressBar,
+    tenth: u32,
+}
+
+impl Meter {
+    pub(crate) fn new(options: &ReportOptions) -> Self {
+        Self {
+            quiet: options.quiet,
+            tenths: options.verbose > 1,
+            on_terminal: std::io::stderr().is_terminal(),
+            current: None,
+            timings: Vec::new(),
+        }
+    }
+
+    /// A line for the user, unless quiet.
+    pub(crate) fn tell(&self, line: &str) {
+        if self.quiet {
+            return;
+        }
+        match &self.current {
+            Some(current) => current.bar.suspend(|| console::tell(line)),
+            None => console::tell(line),
+        }
+    }
+
+    /// Ends the phase before and begins the next.
+    pub(crate) fn begin(&mut self, phase: &'static str) {
+        self.end();
+        let bar = if self.on_terminal && !self.quiet { bar(phase) } else { ProgressBar::hidden() };
+        self.current = Some(Current { phase, start: Instant::now(), bar, tenth: 0 });
+    }
+
+    /// Follows the solver.
+    pub(crate) fn follow(&mut self, progress: &Progress) {
+        let phase = name(progress.phase);
+        if self.current.as_ref().is_none_or(|current| current.phase != phase) {
+            self.begin(phase);
+        }
+        let Some(current) = &mut self.current else {
+            return;
+        };
+        current.bar.set_position((progress.done * STEPS) as u64);
+        let tenth = (progress.done * 10.0) as u32;
+        if tenth > current.tenth {
+            current.tenth = tenth;
+            if self.tenths && !self.on_terminal {
+                self.tell(&format!("{phase}: {} %", tenth * 10));
+            }
+        }
+    }
+
+    /// Ends the last phase.
+    pub(crate) fn end(&mut self) {
+        let Some(Current { phase, start, bar, .. }) = self.current.take() else {
+            return;
+        };
+        bar.finish_and_clear();
+        let seconds = start.elapsed().as_secs_f64();
+        self.tell(&format!("{phase}: {seconds:.2} s"));
+        self.timings.push(Timing { phase, seconds });
+    }
+
+    /// The phases that have ended, in their order.
+    pub(crate) fn into_timings(mut self) -> Vec<Timing> {
+        self.end();
+        self.timings
+    }
+}
+
+fn name(phase: Phase) -> &'static str {
+    match phase {
+        Phase::Direct => "direct light",
+        Phase::Shooting => "reflected light",
+        Phase::Gathering => "gathering",
+    }
+}
+
+fn bar(phase: &'static str) -> ProgressBar {
+    let template = "{msg:<16} {wide_bar} {percent:>3} %, {eta} left";
+    let style =
+        ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    let bar = ProgressBar::new(STEPS as u64).with_style(style).with_message(phase);
+    bar.tick();
+    bar
+}

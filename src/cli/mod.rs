@@ -1,0 +1,74 @@
+//! What the command understands, and how it ends: 0 done, 1 failed, 2 wrong usage.
+
+mod config;
+mod console;
+mod facts;
+mod failure;
+mod info;
+mod interrupt;
+mod meter;
+mod options;
+mod outputs;
+mod record;
+mod render;
+mod solve;
+mod summary;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser, Subcommand};
+
+use failure::Failure;
+
+/// Light in scenes of diffuse surfaces: an adaptive mesh that carries it, and pictures of it
+#[derive(Debug, Parser)]
+#[command(version, max_term_width = 100, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  radiosity solve scenes/cornell-box.obj -o cornell.glb --image cornell.png
+  radiosity render cornell.glb -o mesh.png --wireframe
+  radiosity info scenes/office.obj
+
+`radiosity help solve` explains every option. Exit codes: 0 done, 1 failed, 2 wrong usage.";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Solve(Box<solve::Solve>),
+    Render(render::Render),
+    Info(info::Info),
+}
+
+/// Does what the arguments say, the program's name first among them.
+pub(crate) fn run(arguments: Vec<OsString>) -> ExitCode {
+    match parse(arguments).and_then(|cli| cli.command.run()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.tell(),
+    }
+}
+
+fn parse(arguments: Vec<OsString>) -> Result<Cli, Failure> {
+    let cli = Cli::try_parse_from(&arguments)?;
+    let Command::Solve(solve) = &cli.command else {
+        return Ok(cli);
+    };
+    match &solve.config {
+        Some(path) => Ok(Cli::try_parse_from(config::merged(&Cli::command(), arguments, path)?)?),
+        None => Ok(cli),
+    }
+}
+
+impl Command {
+    fn run(self) -> Result<(), Failure> {
+        match self {
+            Self::Solve(solve) => solve.run(),
+            Self::Render(render) => render.run(),
+            Self::Info(info) => info.run(),
+        }
+    }
+}

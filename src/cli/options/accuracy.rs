@@ -1,0 +1,89 @@
+//! How finely and how long to compute.
+
+use clap::{Args, ValueEnum};
+use radiosity::{Length, Settings};
+
+use super::values;
+
+/// The knobs of a solution; what is not given comes from the quality.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Accuracy")]
+pub(crate) struct AccuracyOptions {
+    /// Sets tolerance, smallest element and deepest level together
+    ///
+    /// draft: 8 %, 1/300 of the scene, level 5. medium: 3 %, 1/800, level 7. high: 1 %, 1/2000, level 9.
+    /// Each may be overridden on its own.
+    #[arg(long, value_enum, default_value_t = Quality::Medium)]
+    quality: Quality,
+
+    /// Error allowed across an element, as a share of the radiosity around it: 0.03 or 3%
+    ///
+    /// Smaller gives more elements, and more time (0.001 to 1).
+    #[arg(long, value_name = "SHARE", value_parser = values::share)]
+    tolerance: Option<f64>,
+
+    /// Shortest side of an element, in metres; shadows finer than this blur
+    #[arg(long, value_name = "METRES", value_parser = values::number)]
+    min_element: Option<f64>,
+
+    /// How often a patch may be divided in a row (0 to 16)
+    #[arg(long, value_name = "N")]
+    max_level: Option<u32>,
+
+    /// No adaptive refinement: every element at most this long, in metres
+    ///
+    /// For comparison with the adaptive mesh; the number of elements grows with its inverse square.
+    #[arg(long, value_name = "METRES", value_parser = values::number)]
+    uniform: Option<f64>,
+
+    /// Longest side of a patch, in metres (default: 1/14 of the scene)
+    ///
+    /// Reflected light is carried between patches: smaller is more accurate and slower.
+    #[arg(long, value_name = "METRES", value_parser = values::number)]
+    patch_size: Option<f64>,
+
+    /// Stop when this share of the emitted power is left unshot: 0.001 or 0.1% (the default)
+    #[arg(long, value_name = "SHARE", value_parser = values::share)]
+    stop: Option<f64>,
+
+    /// Stop after this many shots, and estimate the rest as ambient light
+    #[arg(long, value_name = "N")]
+    max_shots: Option<usize>,
+
+    /// Cells along a hemicube's edge: even, 32 to 1024 (default: 128)
+    ///
+    /// More sees smaller things between patches; time grows with its square.
+    #[arg(long, value_name = "CELLS")]
+    hemicube_resolution: Option<u32>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Quality {
+    /// Seconds, for a first look
+    Draft,
+    /// Right to about one per cent
+    Medium,
+    /// For final pictures
+    High,
+}
+
+impl AccuracyOptions {
+    pub(crate) fn settings(&self) -> Settings {
+        let preset = match self.quality {
+            Quality::Draft => Settings::draft(),
+            Quality::Medium => Settings::medium(),
+            Quality::High => Settings::high(),
+        };
+        let or_preset = |metres: Option<f64>, preset| metres.map_or(preset, Length::Metres);
+        Settings {
+            tolerance: self.tolerance.unwrap_or(preset.tolerance),
+            min_element: or_preset(self.min_element, preset.min_element),
+            max_level: self.max_level.unwrap_or(preset.max_level),
+            patch_size: or_preset(self.patch_size, preset.patch_size),
+            uniform: self.uniform,
+            stop: self.stop.unwrap_or(preset.stop),
+            max_shots: self.max_shots,
+            hemicube_resolution: self.hemicube_resolution.unwrap_or(preset.hemicube_resolution),
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! How the values of options are written.
+
+use glam::DVec3;
+use radiosity::tone::Exposure;
+
+/// Most pixels along a side of a picture.
+const MOST_PIXELS: u32 = 16_384;
+
+/// Pixels of a picture, across and down.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Size {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+}
+
+/// `960x720`.
+pub(crate) fn size(text: &str) -> Result<Size, String> {
+    let pixels = |text: &str| text.parse().ok().filter(|count| (1..=MOST_PIXELS).contains(count));
+    let parts = text.split_once(['x', 'X']);
+    let size = parts.and_then(|(width, height)| Some((pixels(width)?, pixels(height)?)));
+    let (width, height) =
+        size.ok_or_else(|| format!("write WIDTHxHEIGHT, each 1 to {MOST_PIXELS} pixels"))?;
+    Ok(Size { width, height })
+}
+
+/// `1.5,-2,0`.
+pub(crate) fn vector(text: &str) -> Result<DVec3, String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|part| number(part.trim()).ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, z]) => Ok(DVec3::new(x, y, z)),
+        _ => Err("write three numbers x,y,z in metres, without spaces".to_owned()),
+    }
+}
+
+/// `0.001` or `0.1%`.
+pub(crate) fn share(text: &str) -> Result<f64, String> {
+    match text.strip_suffix('%') {
+        Some(percent) => Ok(number(percent.trim_end())? / 100.0),
+        None => number(text),
+    }
+}
+
+/// A unit's name, or metres per unit.
+pub(crate) fn units(text: &str) -> Result<f64, String> {
+    match text {
+        "m" => Ok(1.0),
+        "cm" => Ok(0.01),
+        "mm" => Ok(0.001),
+        "in" => Ok(0.0254),
+        "ft" => Ok(0.3048),
+        _ => number(text)
+            .ok()
+            .filter(|&factor| factor > 0.0)
+            .ok_or_else(|| "write m, cm, mm, in, ft, or how many metres a unit has".to_owned()),
+    }
+}
+
+/// `auto` or an exposure value.
+pub(crate) fn exposure(text: &str) -> Result<Exposure, String> {
+    match text {
+        "auto" => Ok(Exposure::Automatic),
+        _ => number(text)
+            .map(Exposure::Ev)
+            .map_err(|_| "write auto, or an exposure value such as 7.5".to_owned()),
+    }
+}
+
+/// An angle of view, degrees.
+pub(crate) fn angle(text: &str) -> Result<f64, String> {
+    let angle = number(text)?;
+    if (1.0..=170.0).contains(&angle) {
+        return Ok(angle);
+    }
+    Err("an angle of view has 1 to 170 degrees".to_owned())
+}
+
+/// A finite number.
+pub(crate) fn number(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(|| "not a number".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_may_be_written_in_per_cent() {
+        assert_eq!(share("0.25"), Ok(0.25));
+        assert_eq!(share("25%"), Ok(0.25));
+        assert!(share("a%").is_err());
+    }
+
+    #[test]
+    fn vectors_may_be_negative_and_must_have_three_numbers() {
+        assert_eq!(vector("-1,2.5,3e-1"), Ok(DVec3::new(-1.0, 2.5, 0.3)));
+        assert!(vector("1,2").is_err() && vector("1,2,3,4").is_err() && vector("1,2,inf").is_err());
+    }
+
+    #[test]
+    fn units_are_named_or_counted() {
+        assert_eq!(units("ft"), Ok(0.3048));
+        assert_eq!(units("2.5"), Ok(2.5));
+        assert!(units("0").is_err() && units("-1").is_err() && units("yard").is_err());
+    }
+
+    #[test]
+    fn sizes_have_two_sides_of_bearable_length() {
+        assert!(size("960x720").is_ok_and(|size| (size.width, size.height) == (960, 720)));
+        assert!(size("960").is_err() && size("0x10").is_err() && size("99999x1").is_err());
+    }
+}

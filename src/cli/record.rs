@@ -1,0 +1,114 @@
+//! What a solved GLB remembers of how it was made, so that its pictures can be made again.
+
+use std::fmt::{self, Display, Formatter};
+
+use glam::DVec3;
+use radiosity::scene::Camera;
+use radiosity::{Length, Settings};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::facts::triple;
+
+/// The settings of a solution in metres.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct SettingsRecord {
+    tolerance: f64,
+    min_element: f64,
+    max_level: u32,
+    patch_size: f64,
+    uniform: Option<f64>,
+    stop: f64,
+    max_shots: Option<usize>,
+    hemicube_resolution: u32,
+}
+
+impl SettingsRecord {
+    /// The settings as they are for a scene with a bounding box of this diagonal, m.
+    pub(crate) fn new(settings: &Settings, extent: f64) -> Self {
+        let metres = |length: Length| length.metres(extent);
+        Self {
+            tolerance: settings.tolerance,
+            min_element: metres(settings.min_element),
+            max_level: settings.max_level,
+            patch_size: metres(settings.patch_size),
+            uniform: settings.uniform,
+            stop: settings.stop,
+            max_shots: settings.max_shots,
+            hemicube_resolution: settings.hemicube_resolution,
+        }
+    }
+}
+
+impl Display for SettingsRecord {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { tolerance, min_element, max_level, patch_size, .. } = self;
+        write!(f, "tolerance {tolerance}, ")?;
+        match self.uniform {
+            Some(size) => write!(f, "uniform {size} m, ")?,
+            None => write!(f, "elements from {min_element:.4} m, level {max_level}, ")?,
+        }
+        write!(f, "patches up to {patch_size:.4} m, hemicubes of {}", self.hemicube_resolution)
+    }
+}
+
+/// A camera of the scene.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct CameraRecord {
+    name: String,
+    eye: [f64; 3],
+    target: [f64; 3],
+    up: [f64; 3],
+    vertical_fov_degrees: f64,
+}
+
+impl From<&Camera> for CameraRecord {
+    fn from(camera: &Camera) -> Self {
+        Self {
+            name: camera.name.clone(),
+            eye: camera.eye.to_array(),
+            target: camera.target.to_array(),
+            up: camera.up.to_array(),
+            vertical_fov_degrees: camera.vertical_fov.to_degrees(),
+        }
+    }
+}
+
+impl Display for CameraRecord {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let name = if self.name.is_empty() { "unnamed" } else { &self.name };
+        let (eye, target) = (triple(self.eye), triple(self.target));
+        write!(f, "{name}: eye {eye}, target {target}, {:.1} degrees", self.vertical_fov_degrees)
+    }
+}
+
+impl CameraRecord {
+    fn camera(self) -> Option<Camera> {
+        let [eye, target, up] = [self.eye, self.target, self.up].map(DVec3::from);
+        let is_view = [eye, target, up].iter().all(|v| v.is_finite()) && eye != target;
+        (is_view && (1e-3..180.0).contains(&self.vertical_fov_degrees)).then(|| Camera {
+            name: self.name,
+            eye,
+            target,
+            up,
+            vertical_fov: self.vertical_fov_degrees.to_radians(),
+        })
+    }
+}
+
+/// What goes into the settings of a GLB's stamp.
+pub(crate) fn stamped(settings: &SettingsRecord, cameras: &[Camera]) -> Value {
+    let cameras: Vec<CameraRecord> = cameras.iter().map(CameraRecord::from).collect();
+    let mut record = serde_json::to_value(settings).unwrap_or_default();
+    if let (Some(fields), Ok(cameras)) = (record.as_object_mut(), serde_json::to_value(cameras)) {
+        fields.insert("cameras".to_owned(), cameras);
+    }
+    record
+}
+
+/// The cameras that a stamp's settings hold; none if they were written by something else.
+pub(crate) fn cameras(settings: &Value) -> Vec<Camera> {
+    let records = settings.get("cameras").cloned().unwrap_or_default();
+    let records: Vec<CameraRecord> = serde_json::from_value(records).unwrap_or_default();
+    records.into_iter().filter_map(CameraRecord::camera).collect()
+}

@@ -1,0 +1,77 @@
+//! `radiosity render`: a picture of a solved GLB, from anywhere.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use radiosity::{export, render};
+use serde_json::json;
+
+use super::failure::Failure;
+use super::meter::Meter;
+use super::options::{PictureOptions, ReportOptions};
+use super::record::{CameraRecord, cameras};
+use super::{console, outputs};
+
+/// Make a picture of a solved GLB, from anywhere
+///
+/// The light is in the file: nothing is computed again, any view is ready in a moment.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Render {
+    /// A GLB written by `radiosity solve`
+    #[arg(value_name = "FILE.glb")]
+    path: PathBuf,
+
+    /// Picture to write: .png as seen, .hdr or .exr with linear radiance; may be repeated
+    #[arg(short, long, value_name = "FILE", required = true)]
+    output: Vec<PathBuf>,
+
+    #[command(flatten)]
+    picture: PictureOptions,
+
+    #[command(flatten)]
+    report: ReportOptions,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  radiosity render cornell.glb -o mesh.png --wireframe
+  radiosity render cornell.glb -o corner.png --eye 0.1,0.5,-0.2 --target 0.3,0.2,0.3 --fov 60
+  radiosity render office.glb -o lux.png --false-colour lux --size 1600x900";
+
+impl Render {
+    pub(crate) fn run(self) -> Result<(), Failure> {
+        outputs::check(&self.path, &[], &self.output)?;
+        self.report.use_threads()?;
+        let mut meter = Meter::new(&self.report);
+        meter.begin("reading");
+        let (mesh, stamp) = export::load_solved(&self.path)?;
+        let choice = self.picture.choose_camera(&cameras(&stamp.settings))?;
+        if !stamp.finished {
+            meter.tell("the solution was stopped before it was done");
+        }
+        meter.begin("picture");
+        let camera = self.picture.camera(&choice, &mesh);
+        if self.report.verbose > 0 {
+            meter.tell(&format!("camera {}", CameraRecord::from(&camera)));
+        }
+        let display = self.picture.display(&mesh, self.picture.exposure.unwrap_or(stamp.exposure));
+        let picture = self.picture.picture(&mesh, &camera);
+        for path in &self.output {
+            render::save(&picture, path, &display)?;
+        }
+        let seconds = meter.into_timings();
+        if self.report.json {
+            let camera = CameraRecord::from(&camera);
+            let written = &self.output;
+            console::print_json(
+                &json!({ "camera": camera, "written": written, "seconds": seconds }),
+            )?;
+        } else if !self.report.quiet {
+            let names: Vec<String> =
+                self.output.iter().map(|path| path.display().to_string()).collect();
+            console::print(&format!("written: {}", names.join(", ")))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,149 @@
+//! `radiosity solve`: from a scene to a lit mesh and its picture.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use radiosity::export::{self, Stamp};
+use radiosity::reconstruct::TriMesh;
+use radiosity::solver::Stop;
+use radiosity::{load, reconstruct, render, solve, surfaces_of};
+
+use super::failure::Failure;
+use super::interrupt::Interrupt;
+use super::meter::Meter;
+use super::options::{AccuracyOptions, CameraChoice, PictureOptions, ReportOptions, SceneOptions};
+use super::record::{CameraRecord, SettingsRecord, stamped};
+use super::summary::{Outcome, Summary};
+use super::{console, outputs};
+
+/// Light a scene and write the mesh that carries its light, and pictures of it
+///
+/// Surfaces are diffuse. Light straight from emitters is exact and refines the mesh where shadows and gradients
+/// ask for it; reflected light is exchanged between patches until almost nothing is left unshot.
+/// Ctrl-C ends the work after the current shot and still writes everything.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Solve {
+    #[command(flatten)]
+    scene: SceneOptions,
+
+    /// Mesh to write: .glb for viewers, .obj or .ply for other tools; may be repeated
+    ///
+    /// A GLB shows the light in any viewer, keeps radiosity in W/m² beside it, and can be drawn again
+    /// by `radiosity render`.
+    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
+    output: Vec<PathBuf>,
+
+    /// Picture to write: .png as seen, .hdr or .exr with linear radiance; may be repeated
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    image: Vec<PathBuf>,
+
+    #[command(flatten)]
+    accuracy: AccuracyOptions,
+
+    #[command(flatten)]
+    picture: PictureOptions,
+
+    #[command(flatten)]
+    report: ReportOptions,
+
+    /// Take options from a TOML file: `tolerance = 0.02`, `image = "room.png"`, `wireframe = true`
+    ///
+    /// Keys are the long options without dashes in front. What the command line gives wins.
+    #[arg(long, value_name = "FILE.toml", help_heading = "Reporting")]
+    pub(crate) config: Option<PathBuf>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  radiosity solve scenes/cornell-box.obj -o cornell.glb --image cornell.png
+  radiosity solve kitchen.obj --units cm --quality draft --image first-look.png
+  radiosity solve room.glb -o room-lit.ply --image mesh.png --wireframe --tolerance 2%
+  radiosity solve scenes/blocker.obj --uniform 0.1 --image uniform.png --eye 1,2,3 --target 0,0,0";
+
+impl Solve {
+    pub(crate) fn run(self) -> Result<(), Failure> {
+        let settings = self.accuracy.settings();
+        settings.validate()?;
+        outputs::check(&self.scene.path, &self.output, &self.image)?;
+        self.report.use_threads()?;
+        let interrupt = Interrupt::listen();
+        let mut meter = Meter::new(&self.report);
+        if self.output.is_empty() && self.image.is_empty() {
+            meter.tell("nothing will be written; -o FILE.glb and --image FILE.png do that");
+        }
+
+        meter.begin("reading");
+        let scene = load(&self.scene.path, &self.scene.load_options())?;
+        let camera = self.picture.choose_camera(&scene.cameras)?;
+        for note in &scene.notes {
+            meter.tell(&format!("note: {note}"));
+        }
+        meter.begin("surfaces");
+        let surfaces = surfaces_of(&scene);
+        let settings_record = SettingsRecord::new(&settings, surfaces.extent);
+        if self.report.verbose > 0 {
+            meter.tell(&settings_record.to_string());
+        }
+        let solution = solve(&surfaces, &settings, |progress| {
+            meter.follow(progress);
+            interrupt.flow()
+        })?;
+        meter.begin("triangles");
+        let mesh = reconstruct(&surfaces, &solution);
+
+        let exposure = self.picture.exposure.unwrap_or_default();
+        let stamp = Stamp {
+            exposure,
+            settings: stamped(&settings_record, &scene.cameras),
+            finished: solution.stop == Stop::Converged,
+        };
+        self.write(&mesh, &camera, &stamp, &mut meter)?;
+        self.report_on(&Outcome {
+            scene: self.scene.path.clone(),
+            summary: Summary::new(&surfaces, &solution, &mesh),
+            settings: settings_record,
+            seconds: meter.into_timings(),
+            written: self.output.iter().chain(&self.image).cloned().collect(),
+            notes: scene.notes,
+        })
+    }
+
+    fn report_on(&self, outcome: &Outcome) -> Result<(), Failure> {
+        match (self.report.json, self.report.quiet) {
+            (true, _) => console::print_json(outcome)?,
+            (false, true) => (),
+            (false, false) => console::print(&outcome.to_string())?,
+        }
+        Ok(())
+    }
+
+    fn write(
+        &self,
+        mesh: &TriMesh,
+        camera: &CameraChoice,
+        stamp: &Stamp,
+        meter: &mut Meter,
+    ) -> Result<(), Failure> {
+        if !self.output.is_empty() {
+            meter.begin("writing");
+        }
+        for path in &self.output {
+            export::save(mesh, path, stamp)?;
+        }
+        if self.image.is_empty() {
+            return Ok(());
+        }
+        meter.begin("picture");
+        let camera = self.picture.camera(camera, mesh);
+        if self.report.verbose > 0 {
+            meter.tell(&format!("camera {}", CameraRecord::from(&camera)));
+        }
+        let display = self.picture.display(mesh, stamp.exposure);
+        let picture = self.picture.picture(mesh, &camera);
+        for path in &self.image {
+            render::save(&picture, path, &display)?;
+        }
+        Ok(())
+    }
+}

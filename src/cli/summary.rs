@@ -1,0 +1,171 @@
+//! What came of a solution, for people and for programs.
+
+use std::fmt::{self, Display, Formatter};
+use std::path::PathBuf;
+
+use radiosity::colour::Rgb;
+use radiosity::mesh::Reason;
+use radiosity::reconstruct::TriMesh;
+use radiosity::solver::{Energy, Stop};
+use radiosity::{Solution, Surfaces};
+use serde::Serialize;
+
+use super::meter::Timing;
+use super::record::SettingsRecord;
+
+/// Figures of a solution.
+#[derive(Debug, Serialize)]
+pub(crate) struct Summary {
+    /// False if the solver was stopped before it was done.
+    finished: bool,
+    /// `converged`, `shot limit` or `interrupted`.
+    stop: &'static str,
+    surfaces: usize,
+    patches: usize,
+    elements: usize,
+    leaves: usize,
+    divided: Divided,
+    vertices: usize,
+    triangles: usize,
+    shots: usize,
+    hemicubes: Hemicubes,
+    energy: Balance,
+}
+
+/// Elements divided, by reason.
+#[derive(Debug, Default, Serialize)]
+struct Divided {
+    uniform: usize,
+    gradient: usize,
+    shadow_edge: usize,
+    contact: usize,
+}
+
+/// Hemicubes looked through.
+#[derive(Debug, Serialize)]
+struct Hemicubes {
+    patches: usize,
+    vertices: usize,
+}
+
+/// Powers, W per channel.
+#[derive(Debug, Serialize)]
+struct Balance {
+    emitted: [f64; 3],
+    absorbed: [f64; 3],
+    on_backs: [f64; 3],
+    escaped: [f64; 3],
+    unshot: [f64; 3],
+    /// Share of the emitted power.
+    imbalance: f64,
+}
+
+/// A summary with what the command knows beside it.
+#[derive(Debug, Serialize)]
+pub(crate) struct Outcome {
+    pub(crate) scene: PathBuf,
+    #[serde(flatten)]
+    pub(crate) summary: Summary,
+    pub(crate) settings: SettingsRecord,
+    pub(crate) seconds: Vec<Timing>,
+    pub(crate) written: Vec<PathBuf>,
+    pub(crate) notes: Vec<String>,
+}
+
+impl Summary {
+    pub(crate) fn new(surfaces: &Surfaces, solution: &Solution, mesh: &TriMesh) -> Self {
+        let elements = &solution.mesh.elements;
+        let [patches, vertices] = solution.hemicubes;
+        Self {
+            finished: solution.stop == Stop::Converged,
+            stop: match solution.stop {
+                Stop::Converged => "converged",
+                Stop::ShotLimit => "shot limit",
+                Stop::Cancelled => "interrupted",
+            },
+            surfaces: surfaces.list.len(),
+            patches: solution.mesh.patches.len(),
+            elements: elements.len(),
+            leaves: elements.iter().filter(|element| element.is_leaf()).count(),
+            divided: Divided::new(elements.iter().filter_map(|element| element.reason)),
+            vertices: mesh.positions.len(),
+            triangles: mesh.triangles.len(),
+            shots: solution.shots,
+            hemicubes: Hemicubes { patches, vertices },
+            energy: Balance::from(&solution.energy),
+        }
+    }
+}
+
+impl Divided {
+    fn new(reasons: impl Iterator<Item = Reason>) -> Self {
+        let mut divided = Self::default();
+        for reason in reasons {
+            *match reason {
+                Reason::Uniform => &mut divided.uniform,
+                Reason::Gradient => &mut divided.gradient,
+                Reason::ShadowEdge => &mut divided.shadow_edge,
+                Reason::Contact => &mut divided.contact,
+            } += 1;
+        }
+        divided
+    }
+}
+
+impl From<&Energy> for Balance {
+    fn from(energy: &Energy) -> Self {
+        let watts = |power: Rgb| power.to_array();
+        Self {
+            emitted: watts(energy.emitted),
+            absorbed: watts(energy.absorbed),
+            on_backs: watts(energy.on_backs),
+            escaped: watts(energy.escaped),
+            unshot: watts(energy.unshot),
+            imbalance: energy.imbalance(),
+        }
+    }
+}
+
+impl Display for Outcome {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Summary { divided, hemicubes, .. } = &self.summary;
+        let s = &self.summary;
+        let total: f64 = self.seconds.iter().map(|timing| timing.seconds).sum();
+        let state = if s.finished { "" } else { ", unfinished" };
+        writeln!(f, "{}: {}{state}, {total:.1} s", self.scene.display(), s.stop)?;
+        writeln!(f, "surfaces   {}, {} patches", s.surfaces, s.patches)?;
+        writeln!(f, "elements   {}, {} leaves", s.elements, s.leaves)?;
+        writeln!(
+            f,
+            "divided    gradient {}, shadow edge {}, contact {}, uniform {}",
+            divided.gradient, divided.shadow_edge, divided.contact, divided.uniform
+        )?;
+        writeln!(f, "mesh       {} triangles, {} vertices", s.triangles, s.vertices)?;
+        writeln!(f, "shots      {}", s.shots)?;
+        writeln!(f, "hemicubes  patches {}, vertices {}", hemicubes.patches, hemicubes.vertices)?;
+        write!(f, "{}", s.energy)?;
+        if !self.written.is_empty() {
+            let names: Vec<String> =
+                self.written.iter().map(|path| path.display().to_string()).collect();
+            write!(f, "\nwritten    {}", names.join(", "))?;
+        }
+        Ok(())
+    }
+}
+
+impl Display for Balance {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let rows = [
+            ("emitted", self.emitted),
+            ("= absorbed", self.absorbed),
+            ("+ on backs", self.on_backs),
+            ("+ escaped", self.escaped),
+            ("+ unshot", self.unshot),
+        ];
+        writeln!(f, "{:<10} {:>11} {:>11} {:>11}", "power, W", "red", "green", "blue")?;
+        for (name, [red, green, blue]) in rows {
+            writeln!(f, "{name:<10} {red:>11.5} {green:>11.5} {blue:>11.5}")?;
+        }
+        write!(f, "imbalance  {:.3} %", 100.0 * self.imbalance)
+    }
+}

@@ -1,0 +1,139 @@
+//! What is written, and what is said about it.
+
+use radiosity::export::load_solved;
+
+use crate::{Place, scene};
+
+/// The first bytes of every PNG.
+const PNG: &[u8] = b"\x89PNG";
+
+fn begins_with(place: &Place, name: &str, bytes: &[u8]) -> bool {
+    std::fs::read(place.path(name)).is_ok_and(|found| found.starts_with(bytes))
+}
+
+#[test]
+fn every_file_asked_for_is_written() {
+    let place = Place::new();
+    let meshes = ["-o", "a.glb", "-o", "deep/b.obj", "-o", "c.ply"];
+    let pictures = ["--image", "a.png", "--image", "b.exr", "--image", "c.hdr", "--size", "40x30"];
+    let outcome = place.solve(&[&meshes[..], &pictures].concat()).done();
+    for (name, start) in [
+        ("a.glb", &b"glTF"[..]),
+        ("c.ply", b"ply"),
+        ("a.png", PNG),
+        ("b.exr", b"\x76\x2f\x31\x01"),
+        ("c.hdr", b"#?RADIANCE"),
+    ] {
+        assert!(begins_with(&place, name, start), "{name}");
+        assert!(outcome.stdout.contains(name), "{}", outcome.stdout);
+    }
+    assert!(place.path("deep/b.obj").exists());
+    let (mesh, stamp) = load_solved(&place.path("a.glb")).expect("the GLB can be read again");
+    assert!(stamp.finished && !mesh.triangles.is_empty());
+}
+
+#[test]
+fn json_tells_where_the_power_has_gone() {
+    let place = Place::new();
+    let scene = scene("cornell-box.obj");
+    let solve = ["solve", &scene, "--json", "-o", "a.glb", "--quality", "draft", "--threads", "1"];
+    let json = place.run(&solve).done().json();
+    let power = |name: &str| -> f64 {
+        let channels = json["energy"][name].as_array().expect("three channels");
+        channels.iter().filter_map(serde_json::Value::as_f64).sum()
+    };
+    let gone = power("absorbed") + power("on_backs") + power("escaped") + power("unshot");
+    assert!((power("emitted") - gone).abs() < 0.005 * power("emitted"), "{json}");
+    assert_eq!(json["finished"], true);
+    assert_eq!(json["written"][0], "a.glb");
+    assert_eq!(json["settings"]["tolerance"], 0.08);
+    assert!(json["leaves"].as_u64() > Some(500), "{json}");
+}
+
+#[test]
+fn quiet_says_nothing() {
+    let place = Place::new();
+    let outcome = place.solve(&["--quiet", "-o", "a.glb"]).done();
+    assert_eq!((outcome.stdout.as_str(), outcome.stderr.as_str()), ("", ""));
+    assert!(place.path("a.glb").exists());
+}
+
+#[test]
+fn away_from_a_terminal_every_phase_has_a_line() {
+    let outcome = Place::new().solve(&["-o", "a.glb"]).done();
+    for phase in ["reading", "direct light", "reflected light", "gathering", "triangles", "writing"]
+    {
+        let lines = outcome.stderr.lines().filter(|line| line.starts_with(phase)).count();
+        assert_eq!(lines, 1, "{phase}: {}", outcome.stderr);
+    }
+}
+
+#[test]
+fn a_shot_limit_leaves_an_unfinished_solution() {
+    let place = Place::new();
+    let outcome = place.solve(&["--max-shots", "2", "--json", "-o", "a.glb"]).done();
+    assert_eq!(outcome.json()["stop"], "shot limit");
+    let (_, stamp) = load_solved(&place.path("a.glb")).expect("the GLB can be read again");
+    assert!(!stamp.finished);
+}
+
+#[test]
+fn a_solved_glb_gives_the_picture_that_came_with_it() {
+    let place = Place::new();
+    let scene = scene("cornell-box.glb");
+    let view = ["--size", "64x48", "--exposure", "6"];
+    let solve =
+        ["solve", &scene, "--uniform", "0.2", "--stop", "5%", "-o", "a.glb", "--image", "a.png"];
+    place.run(&[&solve[..], &view].concat()).done();
+    place.run(&["render", "a.glb", "-o", "b.png", "--size", "64x48"]).done();
+    let [one, other] = ["a.png", "b.png"].map(|name| std::fs::read(place.path(name)).ok());
+    assert!(one.is_some() && one == other, "camera or exposure were lost on the way");
+}
+
+#[test]
+fn pictures_of_a_solved_glb_may_be_taken_from_anywhere() {
+    let place = Place::new();
+    place.solve(&["-o", "a.glb"]).done();
+    let view =
+        ["--eye", "-0.1,0.3,-0.9", "--target", "0.3,0.2,0.3", "--fov", "50", "--size", "64x48"];
+    let render = |more: &[&str]| {
+        place.run(&[&["render", "a.glb", "-o", "b.png"], &view[..], more].concat()).done();
+        std::fs::read(place.path("b.png")).expect("the picture was written")
+    };
+    let plain = render(&[]);
+    assert!(plain.starts_with(PNG));
+    for more in [&["--wireframe"][..], &["--false-colour"], &["--false-colour", "lux"]] {
+        assert_ne!(render(more), plain, "{more:?}");
+    }
+}
+
+#[test]
+fn a_glb_without_radiosity_is_refused_with_advice() {
+    let place = Place::new();
+    let scene = scene("cornell-box.glb");
+    place.run(&["render", &scene, "-o", "a.png"]).refused(1, &["radiosity solve"]);
+}
+
+#[test]
+fn info_measures_in_metres_and_watts() {
+    let place = Place::new();
+    let text = place.run(&["info", &scene("facing-squares.obj")]).done().stdout;
+    assert!(text.contains("surfaces   2"), "{text}");
+    let json = place.run(&["info", "--json", "--units", "cm", &scene("furnace.obj")]).done().json();
+    let high = &json["bounds"][1];
+    let low = &json["bounds"][0];
+    let width = high[0].as_f64().zip(low[0].as_f64()).map(|(high, low)| high - low);
+    assert!(width.is_some_and(|width| (width - 0.01).abs() < 1e-9), "{json}");
+    let powers = json["materials"].as_array().expect("a list of materials");
+    let power: f64 = powers.iter().filter_map(|material| material["power"][0].as_f64()).sum();
+    assert!((power - 6e-4).abs() < 1e-6, "six square centimetres glow with 1 W/m²: {power}");
+}
+
+#[test]
+fn a_reader_that_leaves_early_is_no_failure() {
+    let place = Place::new();
+    let mut command = place.command(&["info", &scene("office.obj")]);
+    let mut child = command.stdout(std::process::Stdio::piped()).spawn().expect("it can be run");
+    drop(child.stdout.take());
+    assert!(child.wait().is_ok_and(|status| status.success()));
+}
