@@ -21,7 +21,7 @@ use crate::surface::Surfaces;
 use crate::visibility::Occluders;
 
 /// Rows computed at once, ahead of their shots. A number of its own, so that threads change nothing.
-const BATCH: usize = 16;
+const BATCH: usize = 48;
 
 /// Links kept for later shots; beyond them, rows are made anew.
 const KEPT_LINKS: usize = 8_000_000;

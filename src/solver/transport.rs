@@ -23,6 +23,9 @@ const CLOSE: f64 = 0.4;
 /// An element looks by its parts if more than this share of its view is close.
 const CLOSE_SHARE: f64 = 0.05;
 
+/// Levels of a tree down to which elements look for themselves; below them it changed no result.
+const LOOK_LEVELS: u32 = 2;
+
 /// Where the light of one patch goes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Row {
@@ -59,7 +62,8 @@ pub(super) fn row(
         let eye = (place.centre, place.normal);
         let sights = hemicube.look(&mesh.patches, eye, turn(source.index()));
         let parts = &mesh[source].children;
-        if !parts.is_empty() && hemicube.share_within(CLOSE * place.size) > CLOSE_SHARE {
+        let divisible = mesh[source].level < LOOK_LEVELS && !parts.is_empty();
+        if divisible && hemicube.share_within(CLOSE * place.size) > CLOSE_SHARE {
             open.extend_from_slice(parts);
             continue;
         }
