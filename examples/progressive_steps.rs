@@ -16,7 +16,7 @@ fn main() -> radiosity::Result<()> {
     let surfaces = surfaces_of(&scene);
     let after = |max_shots| {
         let max_shots = Some(max_shots);
-        let settings = Settings { max_shots, tolerance: 0.0068, ..Settings::medium() };
+        let settings = Settings { max_shots, tolerance: 0.0058, ..Settings::medium() };
         solve(&surfaces, &settings, |_| ControlFlow::Continue(()))
     };
     // The lamp shoots patch by patch, but always whole.

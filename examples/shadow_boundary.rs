@@ -2,14 +2,13 @@
 
 mod common;
 
-use std::ops::ControlFlow;
 use std::path::Path;
 
 use glam::DVec3;
 use radiosity::render::{self, Display, RenderOptions};
 use radiosity::scene::{Camera, LoadOptions};
 use radiosity::tone::{Exposure, exposure_scale};
-use radiosity::{Length, Settings, Surfaces, TriMesh, load, reconstruct, solve, surfaces_of};
+use radiosity::{Length, Settings, load, surfaces_of};
 
 fn main() -> radiosity::Result<()> {
     let scene = load(Path::new("scenes/blocker.obj"), &LoadOptions::default())?;
@@ -27,24 +26,14 @@ fn main() -> radiosity::Result<()> {
         min_element: Length::Metres(0.002),
         ..Settings::high()
     };
-    let (truth, _) = lit(&surfaces, &fine)?;
+    let (_, truth) = common::lit(&surfaces, &fine)?;
     let display = Display::Exposed { scale: exposure_scale(&truth, Exposure::Automatic) };
 
-    for t in [0.05, 0.03, 0.02, 0.015, 0.009] {
-        let (m, n) = lit(&surfaces, &Settings { tolerance: t, ..Settings::medium() })?;
-        println!("a {t} {n} {}", 100.0 * common::error(&m, &truth, &camera));
-    }
-    for t in [0.4, 0.3, 0.25, 0.2, 0.15, 0.1] {
-        let (m, n) = lit(
-            &surfaces,
-            &Settings { patch_size: Length::Metres(t), uniform: Some(t), ..Settings::medium() },
-        )?;
-        println!("u {t} {n} {}", 100.0 * common::error(&m, &truth, &camera));
-    }
     let uniform = Settings { uniform: Some(0.1), ..Settings::medium() };
-    let adaptive = Settings { tolerance: 0.009, ..Settings::medium() };
+    let adaptive = Settings { tolerance: 0.0065, ..Settings::medium() };
     for (name, settings) in [("uniform", uniform), ("adaptive", adaptive)] {
-        let (mesh, elements) = lit(&surfaces, &settings)?;
+        let (solution, mesh) = common::lit(&surfaces, &settings)?;
+        let elements = solution.mesh.leaves().count();
         let error = 100.0 * common::error(&mesh, &truth, &camera);
         println!("{name:<9} {elements:>5} elements, {error:.2} % error");
         let options = RenderOptions { wireframe: true, ..RenderOptions::default() };
@@ -52,9 +41,4 @@ fn main() -> radiosity::Result<()> {
         render::save(&picture, Path::new(&format!("out/shadow-{name}.png")), &display)?;
     }
     Ok(())
-}
-
-fn lit(surfaces: &Surfaces, settings: &Settings) -> radiosity::Result<(TriMesh, usize)> {
-    let solution = solve(surfaces, settings, |_| ControlFlow::Continue(()))?;
-    Ok((reconstruct(surfaces, &solution), solution.mesh.leaves().count()))
 }

@@ -3,34 +3,31 @@
 
 mod common;
 
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
 use radiosity::render::{self, Display, RenderOptions};
 use radiosity::scene::LoadOptions;
 use radiosity::tone::{Exposure, exposure_scale};
-use radiosity::{
-    Length, Settings, Solution, Surfaces, TriMesh, load, reconstruct, solve, surfaces_of,
-};
+use radiosity::{Length, Settings, load, surfaces_of};
 
 fn main() -> radiosity::Result<()> {
     let load = |name| load(Path::new(name), &LoadOptions::default());
     let surfaces = surfaces_of(&load("scenes/cornell-box.obj")?);
     let camera = &load("scenes/cornell-box.glb")?.cameras[0];
-    let (_, truth) = lit(&surfaces, &Settings::high())?;
+    let (_, truth) = common::lit(&surfaces, &Settings::high())?;
     let display = Display::Exposed { scale: exposure_scale(&truth, Exposure::Automatic) };
 
     let patches = |metres, settings| Settings { patch_size: Length::Metres(metres), ..settings };
     let undivided = Settings { max_level: 0, ..Settings::medium() };
-    let divided = Settings { tolerance: 0.127, ..Settings::medium() };
+    let divided = Settings { tolerance: 0.15, ..Settings::medium() };
     for (name, settings) in [
         ("few", patches(0.135, undivided.clone())),
         ("many", patches(0.047, undivided)),
         ("few-divided", patches(0.135, divided)),
     ] {
         let start = Instant::now();
-        let (solution, mesh) = lit(&surfaces, &settings)?;
+        let (solution, mesh) = common::lit(&surfaces, &settings)?;
         let seconds = start.elapsed().as_secs_f64();
         println!(
             "{name:<11} {:>4} patches, {:>4} elements: {seconds:.2} s, {:.2} % error",
@@ -43,10 +40,4 @@ fn main() -> radiosity::Result<()> {
         render::save(&picture, Path::new(&format!("out/patches-{name}.png")), &display)?;
     }
     Ok(())
-}
-
-fn lit(surfaces: &Surfaces, settings: &Settings) -> radiosity::Result<(Solution, TriMesh)> {
-    let solution = solve(surfaces, settings, |_| ControlFlow::Continue(()))?;
-    let mesh = reconstruct(surfaces, &solution);
-    Ok((solution, mesh))
 }

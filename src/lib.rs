@@ -1,10 +1,55 @@
 //! Adaptive radiosity: a scene of diffuse surfaces in, a crack-free mesh that carries its light out.
 //!
-//! scene → surface → mesh → visibility → `form_factor` → refine → solver → reconstruct → tone → export, render
+//! ```text
+//! file → Scene → Surfaces → Mesh ⇄ direct light, transport ⇄ solver → TriMesh → GLB · picture
+//! ```
 //!
-//! Data moves left to right. A module may use those to its left, never those to its right.
+//! | step | what it promises |
+//! |---|---|
+//! | [`load`] → [`Scene`] | what the file says, every default settled, every repair told in a note |
+//! | [`surfaces_of`] → [`Surfaces`] | planar polygons, holes allowed, of one material, and their contact lines |
+//! | [`mesh::Mesh::new`] | patches, cut along contact lines, and under each a tree of elements |
+//! | [`solve`] → [`Solution`] | light on the mesh, the mesh refined where the light asks for it, and why it stopped |
+//! | [`reconstruct()`] → [`TriMesh`] | radiosity at the vertices of a conforming triangulation |
+//! | [`export::save`], [`render::render`] | files for others, pictures |
 //!
-//! Units: metres, linear RGB, W/m² for radiosity, W/(m² sr) for radiance. Y is up.
+//! The modules, in the order in which data moves; one may use those to its left, never those to its right:
+//!
+//! scene → surface → mesh → visibility → `form_factor` → direct → refine → solver → reconstruct → tone → export, render
+//!
+//! # Words and units
+//!
+//! A *surface* is a planar polygon of one material; a *patch*, a coarse piece of it, shoots; an *element*, a node of the tree
+//! under a patch, receives; a *leaf* is an element without children; a *vertex* is a corner of the output.
+//! B is radiosity and E exitance, W/m² per channel of linear RGB; L is radiance, W/(m² sr), and what files call
+//! emission, so E = πL; ρ is diffuse reflectance, 0..=0.99. Metres, and Y is up.
+//!
+//! # Example
+//!
+//! ```
+//! use std::ops::ControlFlow;
+//! use std::path::Path;
+//! use radiosity::export::{self, Stamp};
+//! use radiosity::{Settings, load, reconstruct, solve, surfaces_of};
+//!
+//! # fn main() -> radiosity::Result<()> {
+//! # let directory = tempfile::tempdir().expect("a place for files");
+//! # let output = directory.path().join("cornell.glb");
+//! let scene = load(Path::new("scenes/cornell-box.obj"), &Default::default())?;
+//! let surfaces = surfaces_of(&scene);
+//! # let settings = Settings { max_level: 2, ..Settings::draft() };
+//! # #[cfg(any())]
+//! let settings = Settings::medium();
+//! let solution = solve(&surfaces, &settings, |progress| {
+//!     println!("{:?} {:.0} %", progress.phase, 100.0 * progress.done);
+//!     ControlFlow::Continue(())
+//! })?;
+//! assert!(solution.energy.imbalance().abs() < 0.005, "light was lost");
+//! let mesh = reconstruct(&surfaces, &solution);
+//! export::save(&mesh, &output, &Stamp::default())?;
+//! # Ok(())
+//! # }
+//! ```
 
 #![warn(clippy::print_stdout, clippy::print_stderr, clippy::unwrap_used)]
 

@@ -1,8 +1,10 @@
-//! How far a mesh is from a finer one, as seen from a camera.
+//! Lights surfaces, and tells how far a mesh is from a finer one, as seen from a camera.
 
-use radiosity::TriMesh;
+use std::ops::ControlFlow;
+
 use radiosity::render::{RenderOptions, render};
 use radiosity::scene::Camera;
+use radiosity::{Settings, Solution, Surfaces, TriMesh, reconstruct, solve};
 
 /// Pixels this much brighter than the mean show a lamp, which every mesh gets right.
 const LAMP: f64 = 10.0;
@@ -23,4 +25,14 @@ pub(crate) fn error(mesh: &TriMesh, truth: &TriMesh, camera: &Camera) -> f64 {
         }
     }
     f64::sqrt(squares / count) / (sum / count)
+}
+
+/// The solution of a scene, and its triangles.
+pub(crate) fn lit(
+    surfaces: &Surfaces,
+    settings: &Settings,
+) -> radiosity::Result<(Solution, TriMesh)> {
+    let solution = solve(surfaces, settings, |_| ControlFlow::Continue(()))?;
+    let mesh = reconstruct(surfaces, &solution);
+    Ok((solution, mesh))
 }
