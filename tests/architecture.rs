@@ -149,8 +149,10 @@ fn the_library_is_silent() {
         if ["main", "cli"].contains(&module(&path).as_str()) {
             continue;
         }
+        // Examples in documentation may print.
+        let code = || text.lines().filter(|line| !line.trim_start().starts_with("//"));
         for word in ["println!", "eprintln!", "print!("] {
-            assert!(!text.contains(word), "{} has {word}", path.display());
+            assert!(!code().any(|line| line.contains(word)), "{} has {word}", path.display());
         }
     }
 }

@@ -248,10 +248,19 @@ fn an_unknown_ending_is_an_error_with_the_path() {
 }
 
 #[test]
-fn a_folder_that_is_not_there_is_an_error_with_the_path() {
+fn a_folder_that_is_not_there_is_made() {
     let picture = render(&square(1, 1.0), &camera_in_front(5.0), &small(4, 4));
-    let path = Path::new("not/there/picture.png");
-    let error = save(&picture, path, &EXPOSED).unwrap_err();
+    let place = tempfile::tempdir().expect("temporary directories can be made");
+    let path = place.path().join("not/there/picture.png");
+    save(&picture, &path, &EXPOSED).expect("the folder is made");
+    assert!(path.exists());
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_an_error_with_the_path() {
+    let picture = render(&square(1, 1.0), &camera_in_front(5.0), &small(4, 4));
+    let place = tempfile::NamedTempFile::new().expect("temporary files can be made");
+    let error = save(&picture, &place.path().join("picture.png"), &EXPOSED).unwrap_err();
     assert!(error.to_string().contains("picture.png"), "{error}");
 }
 

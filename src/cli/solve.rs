@@ -58,7 +58,7 @@ const EXAMPLES: &str = "\
 Examples:
   radiosity solve scenes/cornell-box.obj -o cornell.glb --image cornell.png
   radiosity solve kitchen.obj --units cm --quality draft --image first-look.png
-  radiosity solve room.glb -o room-lit.ply --image mesh.png --wireframe --tolerance 2%
+  radiosity solve room.glb -o room-lit.ply --image mesh.png --wireframe --tolerance 1.5%
   radiosity solve scenes/blocker.obj --uniform 0.1 --image uniform.png --eye 1,2,3 --target 0,0,0";
 
 impl Solve {

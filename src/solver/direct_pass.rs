@@ -50,6 +50,9 @@ pub(super) fn refine(
     mesh: &mut Mesh,
     observer: &mut Observer<'_>,
 ) {
+    if observer.tell(Phase::Direct, 0.0).is_break() {
+        return;
+    }
     light(world, mesh);
     if settings.uniform.is_some() {
         return;
@@ -57,8 +60,8 @@ pub(super) fn refine(
     let oracle = Oracle::new(settings, world.surfaces.extent, mean_radiosity(mesh));
     let mut candidates: Vec<ElementId> = mesh.leaves().collect();
     for level in 0..settings.max_level {
-        if observer.tell(Phase::Direct, f64::from(level) / f64::from(settings.max_level)).is_break()
-        {
+        let share = f64::from(level) / f64::from(settings.max_level);
+        if observer.tell(Phase::Direct, share).is_break() {
             return;
         }
         candidates.retain(|&e| oracle.may_divide(mesh, e) && reflects(mesh, e));

@@ -16,6 +16,8 @@ pub(super) fn refine(
     mesh: &mut Mesh,
     observer: &mut Observer<'_>,
 ) {
+    // What follows is gathered in any case: all else is interpolated from it.
+    let _ = observer.tell(Phase::Gathering, 0.0);
     if settings.uniform.is_some() {
         let leaves: Vec<ElementId> = mesh.leaves().filter(|&e| reflects(mesh, e)).collect();
         gatherer.light(mesh, corners(mesh, &leaves));

@@ -63,8 +63,8 @@ fn away_from_a_terminal_every_phase_has_a_line() {
     let outcome = Place::new().solve(&["-o", "a.glb"]).done();
     for phase in ["reading", "direct light", "reflected light", "gathering", "triangles", "writing"]
     {
-        let lines = outcome.stderr.lines().filter(|line| line.starts_with(phase)).count();
-        assert_eq!(lines, 1, "{phase}: {}", outcome.stderr);
+        let has_line = outcome.stderr.lines().any(|line| line.starts_with(phase));
+        assert!(has_line, "{phase}: {}", outcome.stderr);
     }
 }
 

@@ -11,12 +11,12 @@ use super::values;
 pub(crate) struct AccuracyOptions {
     /// Sets tolerance, smallest element and deepest level together
     ///
-    /// draft: 8 %, 1/300 of the scene, level 5. medium: 3 %, 1/800, level 7. high: 1 %, 1/2000, level 9.
+    /// draft: 8 %, 1/300 of the scene, level 5. medium: 2 %, 1/800, level 7. high: 1 %, 1/2000, level 9.
     /// Each may be overridden on its own.
     #[arg(long, value_enum, default_value_t = Quality::Medium)]
     quality: Quality,
 
-    /// Error allowed across an element, as a share of the radiosity around it: 0.03 or 3%
+    /// Error allowed across an element, as a share of the radiosity around it: 0.02 or 2%
     ///
     /// Smaller gives more elements, and more time (0.001 to 1).
     #[arg(long, value_name = "SHARE", value_parser = values::share)]
