@@ -5,7 +5,7 @@ use std::io::{self, Cursor};
 
 use image::{ImageBuffer, ImageFormat, Rgb};
 
-use crate::colour::{linear_from_srgb, srgb_from_linear};
+use crate::colour::srgb_from_linear;
 use crate::scene::Texture;
 
 /// What a picture is stored as.
@@ -52,27 +52,6 @@ pub(crate) fn encoded(texture: &Texture) -> io::Result<Cow<'_, [u8]>> {
     let mut png = Cursor::new(Vec::new());
     picture.write_to(&mut png, ImageFormat::Png).map_err(io::Error::other)?;
     Ok(Cow::Owned(png.into_inner()))
-}
-
-/// The picture in `bytes`, PNG or JPEG, or what is wrong with it.
-pub(crate) fn decoded(name: &str, bytes: &[u8], repeat: [bool; 2]) -> Result<Texture, String> {
-    let failed = |error| format!("picture {name}: {error}");
-    let coding = match image::guess_format(bytes).map_err(failed)? {
-        ImageFormat::Png => Coding::Png,
-        ImageFormat::Jpeg => Coding::Jpeg,
-        _ => return Err(format!("picture {name}: neither PNG nor JPEG")),
-    };
-    let picture = image::load_from_memory(bytes).map_err(failed)?.into_rgb32f();
-    let decode = |value: f32| linear_from_srgb(f64::from(value)) as f32;
-    Ok(Texture {
-        name: name.to_owned(),
-        width: picture.width(),
-        height: picture.height(),
-        texels: picture.pixels().map(|texel| texel.0.map(decode)).collect(),
-        encoded: bytes.to_vec(),
-        mime_type: coding.mime_type().to_owned(),
-        repeat,
-    })
 }
 
 fn kept(texture: &Texture) -> Option<Coding> {

@@ -97,6 +97,10 @@ impl Observer<'_> {
     }
 }
 
+/// What is said of a scene without light.
+const DARK: &str = "nothing in the scene emits light; give a material an emission \
+                    (Ke in an MTL file, emissiveFactor in glTF) or the file a light";
+
 /// Gathering resolves differences down to this share of the tolerated error.
 const GATHER_SHARE: f64 = 0.1;
 
@@ -119,7 +123,7 @@ pub fn solve(
     let occluders = Occluders::new(surfaces);
     let lamps = Lamps::new(surfaces, &mesh);
     if lamps.is_empty() {
-        return Err(Error::Scene("nothing in the scene emits light".to_owned()));
+        return Err(Error::Scene(DARK.to_owned()));
     }
     let world = World { surfaces, occluders: &occluders, lamps: &lamps };
 

@@ -14,9 +14,9 @@ use super::record::Record;
 use super::{RADIOSITY, TEXTURE_MEAN};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
-use crate::export::{Stamp, picture};
+use crate::export::Stamp;
 use crate::reconstruct::{Part, TriMesh};
-use crate::scene::Texture;
+use crate::scene::{Texture, decode};
 
 const NO_RADIOSITY: &str = "carries no radiosity (attribute _RADIOSITY); `radiosity solve SCENE -o FILE.glb` makes such a file";
 
@@ -153,5 +153,6 @@ fn read_texture(arrays: &Arrays, texture: &gltf_json::Texture) -> Outcome<Textur
     let sampler = texture.sampler.and_then(|index| root.samplers.get(index.value()));
     let repeats = |mode| mode != Checked::Valid(WrappingMode::ClampToEdge);
     let repeat = sampler.map_or([true; 2], |s| [repeats(s.wrap_s), repeats(s.wrap_t)]);
-    picture::decoded(image.name.as_deref().unwrap_or_default(), arrays.view(view)?, repeat)
+    let name = image.name.as_deref().unwrap_or_default();
+    decode(name, arrays.view(view)?, repeat).map_err(|error| format!("picture {name}: {error}"))
 }
