@@ -10,7 +10,7 @@ use crate::reconstruct::TriMesh;
 /// Exposed luminance that [`Exposure::Automatic`] gives to the mesh's log-average.
 ///
 /// 0.18 as in photography makes rooms look like evening, 0.4 washes out the wall beside a lamp.
-const KEY: f64 = 0.25;
+const KEY: f64 = 0.22;
 
 /// Share of the mean luminance below which a surface counts as unlit and is left out of the average.
 const UNLIT: f64 = 1e-3;
@@ -42,7 +42,7 @@ pub enum Exposure {
 /// `Ev(v)`: 683/π / (1.2 · 2^v), so that a luminance of 1.2 · 2^v cd/m² becomes 1, after
 /// [Lagarde and de Rousiers 2014], section 5.1.2.
 ///
-/// `Automatic`: 0.25 / exp(Σ A ln Y / Σ A) over the triangles' areas A and mean luminances Y, the
+/// `Automatic`: 0.22 / exp(Σ A ln Y / Σ A) over the triangles' areas A and mean luminances Y, the
 /// log-average of [Reinhard et al. 2002]. Triangles darker than a thousandth of the mean are left
 /// out; a lamp of a hundredth of the area weighs a hundredth, however bright it is. A mesh
 /// without light gets 1.
