@@ -9,7 +9,7 @@ use radiosity::scene::{Light, Material};
 use radiosity::{Scene, Surfaces};
 use serde::Serialize;
 
-use super::record::CameraRecord;
+use super::record::{CameraRecord, triple};
 
 /// A scene in figures.
 #[derive(Debug, Serialize)]
@@ -174,10 +174,4 @@ impl Display for MaterialFacts {
         }
         if self.double_sided { write!(f, ", both sides") } else { Ok(()) }
     }
-}
-
-/// Three numbers, to four digits behind the point at most.
-pub(crate) fn triple(numbers: [f64; 3]) -> String {
-    let rounded = numbers.map(|x| ((x * 1e4).round() / 1e4 + 0.0).to_string());
-    format!("({})", rounded.join(", "))
 }

@@ -8,8 +8,6 @@ use radiosity::{Length, Settings};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::facts::triple;
-
 /// The settings of a solution in metres.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct SettingsRecord {
@@ -111,4 +109,10 @@ pub(crate) fn cameras(settings: &Value) -> Vec<Camera> {
     let records = settings.get("cameras").cloned().unwrap_or_default();
     let records: Vec<CameraRecord> = serde_json::from_value(records).unwrap_or_default();
     records.into_iter().filter_map(CameraRecord::camera).collect()
+}
+
+/// Three numbers, to four digits behind the point at most.
+pub(crate) fn triple(numbers: [f64; 3]) -> String {
+    let rounded = numbers.map(|x| ((x * 1e4).round() / 1e4 + 0.0).to_string());
+    format!("({})", rounded.join(", "))
 }

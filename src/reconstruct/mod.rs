@@ -4,6 +4,7 @@
 //! their border, within a surface and where surfaces meet. Light is shared by leaves that
 //! share a vertex of the mesh, which those on two sides of a contact line do not.
 
+mod normal;
 mod sheet;
 mod smooth;
 mod stitch;

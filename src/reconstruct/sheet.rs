@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DVec2, DVec3};
 
-use super::smooth::normal_at;
+use super::normal::normal_at;
 use super::stitch::Places;
 use super::triangulate::triangulate;
 use crate::colour::Rgb;

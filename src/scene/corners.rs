@@ -7,7 +7,6 @@ use smallvec::SmallVec;
 use super::Scene;
 use super::notes::note_count;
 use super::polygon::area_vector;
-use super::repair::corners;
 
 /// Cosine of 0.1°: normals within that angle of the face's own say nothing.
 const SAME_DIRECTION: f64 = 0.999_998_476_9;
@@ -44,7 +43,7 @@ pub(crate) fn settle_normals(scene: &mut Scene) {
         if face.normals.is_empty() {
             continue;
         }
-        let own = area_vector(&corners(&scene.positions, face)).normalize_or_zero();
+        let own = area_vector(&face.corners(&scene.positions)).normalize_or_zero();
         let unit: SmallVec<[DVec3; 4]> =
             face.normals.iter().map(|normal| normal.as_dvec3().normalize_or_zero()).collect();
         let degenerate = unit.contains(&DVec3::ZERO);

@@ -64,6 +64,13 @@ pub struct Face {
     pub object: u32,
 }
 
+impl Face {
+    /// Where its corners are, m.
+    pub(crate) fn corners(&self, positions: &[DVec3]) -> SmallVec<[DVec3; 4]> {
+        self.vertices.iter().map(|&vertex| positions[vertex as usize]).collect()
+    }
+}
+
 impl Default for Face {
     fn default() -> Self {
         let (vertices, normals, uvs) = (SmallVec::new(), SmallVec::new(), SmallVec::new());

@@ -32,11 +32,6 @@ pub(crate) fn clean(scene: &mut Scene) {
     forget_unused_positions(scene);
 }
 
-/// Where the face's corners are, m.
-pub(crate) fn corners(positions: &[DVec3], face: &Face) -> SmallVec<[DVec3; 4]> {
-    face.vertices.iter().map(|&vertex| positions[vertex as usize]).collect()
-}
-
 /// Gives bitwise equal positions (0 and -0 count as equal) the index of the first of them.
 fn weld(scene: &mut Scene) {
     let mut first = HashMap::new();
@@ -62,7 +57,7 @@ fn drop_degenerate(scene: &mut Scene) {
     let positions = &scene.positions;
     scene.faces.retain_mut(|face| {
         let repeats = drop_repeated_corners(face);
-        let corners = corners(positions, face);
+        let corners = face.corners(positions);
         let area = area_vector(&corners).length();
         // Written so that an undefined area fails too.
         let keep = face.vertices.len() >= 3 && area > MIN_AREA * longest_edge(&corners).powi(2);
@@ -108,7 +103,7 @@ fn split_difficult(scene: &mut Scene) {
     let (mut bulging, mut crossing) = (0, 0);
     let mut faces = Vec::with_capacity(scene.faces.len());
     for face in scene.faces.drain(..) {
-        let corners = corners(&scene.positions, &face);
+        let corners = face.corners(&scene.positions);
         let normal = area_vector(&corners).normalize_or_zero();
         let flat = flattened(&corners, normal);
         let Some(difficulty) = difficulty(&face, &corners, &flat, normal) else {
@@ -145,7 +140,7 @@ fn difficulty(face: &Face, corners: &[DVec3], flat: &[DVec2], normal: DVec3) -> 
 }
 
 fn has_area(positions: &[DVec3], face: &Face) -> bool {
-    let corners = corners(positions, face);
+    let corners = face.corners(positions);
     area_vector(&corners).length() > MIN_AREA * longest_edge(&corners).powi(2)
 }
 
