@@ -1,5 +1,6 @@
-//! Light on its way: pictures after 1, 2, 24 and 100 shots, the lamp's being the first, with the ambient estimate
-//! of the light still unshot ([Cohen, Chen, Wallace and Greenberg 1988](https://doi.org/10.1145/54852.378487)).
+//! Light on its way: pictures after 1, 2, 24 and 100 shots, the lamp's being the first, with the
+//! ambient estimate of the light still unshot ([Cohen, Chen, Wallace and Greenberg
+//! 1988](https://doi.org/10.1145/54852.378487)).
 
 use std::ops::ControlFlow;
 use std::path::Path;

@@ -1,4 +1,5 @@
-//! A shadow on a floor: a uniform and an adaptive mesh of about as many elements, and how far each is from the truth.
+//! A shadow on a floor: a uniform and an adaptive mesh of about as many elements, and how far each
+//! is from the truth.
 
 mod common;
 

@@ -1,5 +1,6 @@
-//! Substructuring: few patches, many patches, and few patches with as many elements where light asks for them
-//! ([Cohen, Greenberg, Immel and Brock 1986](https://doi.org/10.1109/MCG.1986.276629)).
+//! Substructuring: few patches, many patches, and few patches with as many elements where light
+//! asks for them ([Cohen, Greenberg, Immel and Brock
+//! 1986](https://doi.org/10.1109/MCG.1986.276629)).
 
 mod common;
 

@@ -7,7 +7,8 @@ pub type Rgb = DVec3;
 
 /// Luminous power of one watt, lm/W, by which photometric and radiometric units are exchanged.
 ///
-/// The value that glTF exporters use for `KHR_lights_punctual`, so that lights from such files keep their lux.
+/// The value that glTF exporters use for `KHR_lights_punctual`, so that lights from such files keep
+/// their lux.
 pub const LUMENS_PER_WATT: f64 = 683.0;
 
 /// Relative luminance of a linear colour, in the colour's unit ([Rec. 709] weights).

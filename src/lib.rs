@@ -15,14 +15,16 @@
 //!
 //! The modules, in the order in which data moves; one may use those to its left, never those to its right:
 //!
-//! scene → surface → mesh → visibility → `form_factor` → direct → refine → solver → reconstruct → tone → export, render
+//! scene → surface → mesh → visibility → `form_factor` → direct → refine → solver → reconstruct →
+//! tone → export, render
 //!
 //! # Words and units
 //!
-//! A *surface* is a planar polygon of one material; a *patch*, a coarse piece of it, shoots; an *element*, a node of the tree
-//! under a patch, receives; a *leaf* is an element without children; a *vertex* is a corner of the output.
-//! B is radiosity and E exitance, W/m² per channel of linear RGB; L is radiance, W/(m² sr), and what files call
-//! emission, so E = πL; ρ is diffuse reflectance, 0..=0.99. Metres, and Y is up.
+//! A *surface* is a planar polygon of one material; a *patch*, a coarse piece of it, shoots; an
+//! *element*, a node of the tree under a patch, receives; a *leaf* is an element without children;
+//! a *vertex* is a corner of the output. B is radiosity and E exitance, W/m² per channel of linear
+//! RGB; L is radiance, W/(m² sr), and what files call emission, so E = πL; ρ is diffuse
+//! reflectance, 0..=0.99. Metres, and Y is up.
 //!
 //! # Example
 //!

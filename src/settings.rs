@@ -103,7 +103,8 @@ impl Settings {
         Ok(())
     }
 
-    /// Whether a mesh of surfaces of this area, m², in a bounding box of this diagonal, m, will be of a bearable size.
+    /// Whether a mesh of surfaces of this area, m², in a bounding box of this diagonal, m, will be
+    /// of a bearable size.
     ///
     /// # Errors
     /// [`Error::Setting`] about the size that is too small.

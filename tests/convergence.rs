@@ -113,7 +113,8 @@ fn contest(scene: &Scene, tolerance: f64, size: f64) -> [(f64, usize); 2] {
 #[test]
 fn an_adaptive_mesh_needs_fewer_triangles_than_a_uniform_one() {
     let [adaptive, uniform] = contest(&shipped("blocker.obj"), 0.05, 0.1);
-    // Both errors fall as one over the number of triangles, so the products compare meshes of any two sizes.
+    // Both errors fall as one over the number of triangles, so the products compare meshes of any
+    // two sizes.
     let cost = |(error, triangles): (f64, usize)| error * triangles as f64;
     assert!(cost(adaptive) < 0.95 * cost(uniform), "{adaptive:?} against {uniform:?}");
 }

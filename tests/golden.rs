@@ -1,4 +1,5 @@
-//! Pictures that a person has looked at stay as they are. `UPDATE_GOLDEN=1 cargo test --test golden` makes them anew.
+//! Pictures that a person has looked at stay as they are. `UPDATE_GOLDEN=1 cargo test --test
+//! golden` makes them anew.
 
 use std::ops::ControlFlow;
 use std::path::Path;

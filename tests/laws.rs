@@ -108,7 +108,8 @@ fn light_is_exactly_the_same_in_units_that_are_powers_of_two() {
     }
 }
 
-/// Asserts that two meshes of about as many triangles, within a share `slack` of them, carry the same light.
+/// Asserts that two meshes of about as many triangles, within a share `slack` of them, carry the
+/// same light.
 fn assert_alike(here: &TriMesh, there: &TriMesh, slack: f64) {
     let count = there.triangles.len() as f64 / here.triangles.len() as f64;
     assert!((count - 1.0).abs() <= slack, "{count} times the triangles");

@@ -70,8 +70,8 @@ fn sides_of_edges(mesh: &TriMesh) -> HashMap<[[u64; 3]; 2], Vec<DVec3>> {
     sides
 }
 
-/// Asserts that no vertex of a surface lies inside an edge of it, nor any at all inside an edge of its outline,
-/// and that vertices within a `hair`, m, are at exactly one place.
+/// Asserts that no vertex of a surface lies inside an edge of it, nor any at all inside an edge of
+/// its outline, and that vertices within a `hair`, m, are at exactly one place.
 fn assert_conforming(mesh: &TriMesh, extent: f64, hair: f64) {
     let grid = Grid::new(mesh, extent / 60.0);
     let sides = sides_of_edges(mesh);
@@ -189,7 +189,8 @@ fn materials_on_one_plane_keep_their_own_light() {
     assert!(shared > 0, "the tiles share vertices");
 }
 
-/// A room with a faceted column; its mantle has the normals of a cylinder, and `paint` chooses facets' materials.
+/// A room with a faceted column; its mantle has the normals of a cylinder, and `paint` chooses
+/// facets' materials.
 fn column(paint: impl Fn(usize) -> usize) -> Scene {
     const FACETS: usize = 10;
     let mut stage = Stage { scene: furnished_room(&[]) };
@@ -212,7 +213,8 @@ fn column(paint: impl Fn(usize) -> usize) -> Scene {
     stage.scene
 }
 
-/// Asserts that vertices of the column at one place are as bright as each other where `alike`, and counts pairs.
+/// Asserts that vertices of the column at one place are as bright as each other where `alike`, and
+/// counts pairs.
 fn compare(mesh: &TriMesh, alike: impl Fn(usize, usize) -> bool) -> [usize; 2] {
     let mut by_place: HashMap<[u64; 3], Vec<usize>> = HashMap::new();
     for (index, position) in mesh.positions.iter().enumerate() {

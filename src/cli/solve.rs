@@ -18,9 +18,9 @@ use super::{console, outputs};
 
 /// Light a scene and write the mesh that carries its light, and pictures of it
 ///
-/// Surfaces are diffuse. Light straight from emitters is exact and refines the mesh where shadows and gradients
-/// ask for it; reflected light is exchanged between patches until almost nothing is left unshot.
-/// Ctrl-C ends the work after the current shot and still writes everything.
+/// Surfaces are diffuse. Light straight from emitters is exact and refines the mesh where shadows
+/// and gradients ask for it; reflected light is exchanged between patches until almost nothing is
+/// left unshot. Ctrl-C ends the work after the current shot and still writes everything.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Solve {

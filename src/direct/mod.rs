@@ -141,7 +141,8 @@ impl AreaLamp {
 /// Cells along an edge of each triangle of a light that is sampled.
 const STRATA: u32 = 12;
 
-/// The visible part's form factor by a ray to each cell of the polygon: the fallback where much stands in between.
+/// The visible part's form factor by a ray to each cell of the polygon: the fallback where much
+/// stands in between.
 fn sampled(occluders: &Occluders, (place, normal): (DVec3, DVec3), polygon: &[DVec3]) -> f64 {
     let mut sum = 0.0;
     for k in 1..polygon.len() - 1 {

@@ -8,9 +8,10 @@ use crate::visibility::HalfSpace;
 
 /// Form factor (0..=1) from a point on a surface with unit `normal` to a polygon, occlusion not included.
 ///
-/// F = 1/2π |Σₖ θₖ n·γₖ| over the edges, θₖ being the angle that edge k fills as seen from the point and γₖ the
-/// unit normal of the plane through both ([Lambert 1760]; [Nishita and Nakamae 1985]). What lies
-/// below the horizon is clipped away. Exact for any planar polygon not in one plane with the point.
+/// F = 1/2π |Σₖ θₖ n·γₖ| over the edges, θₖ being the angle that edge k fills as seen from the
+/// point and γₖ the unit normal of the plane through both ([Lambert 1760]; [Nishita and Nakamae
+/// 1985]). What lies below the horizon is clipped away. Exact for any planar polygon not in one
+/// plane with the point.
 ///
 /// [Lambert 1760]: https://archive.org/details/lambertsphotome00lambgoog
 /// [Nishita and Nakamae 1985]: https://doi.org/10.1145/325165.325169

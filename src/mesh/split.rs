@@ -16,7 +16,8 @@ const LONG: f64 = 1.8;
 pub enum Split {
     /// A triangle or quadrilateral in four, any other polygon in one quadrilateral per corner.
     Quarters,
-    /// A quadrilateral in two, along the line between the midpoints of its edges `k` and `k + 2`, `k` being 0 or 1.
+    /// A quadrilateral in two, along the line between the midpoints of its edges `k` and `k + 2`,
+    /// `k` being 0 or 1.
     Halves(usize),
 }
 

@@ -1,8 +1,8 @@
 //! Radiosity at vertices, on a triangulation without T-junctions.
 //!
-//! Every leaf is outlined with all the places that lie on its edges, its own or another's; so neighbours agree on
-//! their border, within a surface and where surfaces meet. Light is shared by leaves that
-//! share a vertex of the mesh, which those on two sides of a contact line do not.
+//! Every leaf is outlined with all the places that lie on its edges, its own or another's; so
+//! neighbours agree on their border, within a surface and where surfaces meet. Light is shared by
+//! leaves that share a vertex of the mesh, which those on two sides of a contact line do not.
 
 mod normal;
 mod sheet;

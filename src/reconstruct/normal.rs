@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3};
 
 use crate::surface::{Surface, polygon};
 
-/// The normal at a place on a surface, m: its own, or that of the curved surface it stands for, blended between the
-/// corners by mean value coordinates ([Floater 2003]).
+/// The normal at a place on a surface, m: its own, or that of the curved surface it stands for,
+/// blended between the corners by mean value coordinates ([Floater 2003]).
 ///
 /// [Floater 2003]: https://doi.org/10.1016/S0167-8396(03)00002-5
 pub(super) fn normal_at(surface: &Surface, place: DVec2) -> DVec3 {

@@ -9,7 +9,8 @@ use super::sheet::Sheet;
 /// Unit normals whose difference is no longer than this are one.
 const SAME: f64 = 1e-2;
 
-/// Gives corners of curved facets of one paint, at one place and with one normal, the mean of their radiosities.
+/// Gives corners of curved facets of one paint, at one place and with one normal, the mean of their
+/// radiosities.
 pub(super) fn average_across_smooth_edges(sheets: &mut [Sheet]) {
     let mut meeting: HashMap<u32, Vec<(usize, usize)>> = HashMap::new();
     for (number, sheet) in sheets.iter().enumerate().filter(|(_, sheet)| sheet.curved) {

@@ -59,7 +59,8 @@ pub(super) fn triangulate(loops: &[Vec<u32>], at: impl Fn(u32) -> DVec2) -> Vec<
     tiles(&cdt, &owners)
 }
 
-/// The inner faces that belong to a leaf: those to the left of its edges, and what hangs together with them.
+/// The inner faces that belong to a leaf: those to the left of its edges, and what hangs together
+/// with them.
 fn tiles(
     cdt: &ConstrainedDelaunayTriangulation<Node>,
     owners: &HashMap<[u32; 2], usize>,

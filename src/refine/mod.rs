@@ -1,7 +1,8 @@
 //! The oracle: whether interpolation across an element is good enough, and if not, where to divide it.
 //!
-//! Interpolated values are compared with values evaluated afresh: at the midpoints of the edges, at the centre,
-//! and, for direct light, at probes in between, so that a small shadow is not overlooked.
+//! Interpolated values are compared with values evaluated afresh: at the midpoints of the edges, at
+//! the centre, and, for direct light, at probes in between, so that a small shadow is not
+//! overlooked.
 
 use smallvec::SmallVec;
 
@@ -19,8 +20,8 @@ const RESIDUE: f64 = 0.7;
 /// larger ones more strictly and smaller ones less, since an error counts by the area that it spoils.
 const PLAIN_SIZE: f64 = 0.02;
 
-/// How strongly size counts. With 1, all elements would share the squared error alike, which gives the least
-/// in all for their number; with 0, the eye would find no element worse than another.
+/// How strongly size counts. With 1, all elements would share the squared error alike, which gives
+/// the least in all for their number; with 0, the eye would find no element worse than another.
 const SIZE_POWER: f64 = 0.75;
 
 /// Judges elements by one kind of light.

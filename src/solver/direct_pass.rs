@@ -12,7 +12,8 @@ use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
 
-/// Probes along each axis of an element; together with edges and centre no gap is wider than a quarter of a side.
+/// Probes along each axis of an element; together with edges and centre no gap is wider than a
+/// quarter of a side.
 const PROBES: usize = 4;
 
 /// What light meets on its way.

@@ -32,7 +32,8 @@ impl ElementLight {
         self.indirect = pull(mesh, |element| sum[element.index()]);
     }
 
-    /// Irradiance by reflected light at vertices, W/m², one per vertex: the mean of the leaves around, by area.
+    /// Irradiance by reflected light at vertices, W/m², one per vertex: the mean of the leaves
+    /// around, by area.
     pub(super) fn indirect_at_vertices(&self, mesh: &Mesh) -> Vec<Rgb> {
         let mut sums = vec![(Rgb::ZERO, 0.0); mesh.vertices.len()];
         for leaf in mesh.leaves() {

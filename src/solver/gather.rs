@@ -1,7 +1,8 @@
 //! Indirect light at vertices: a last gathering, by a hemicube over each, of what the elements reflect.
 //!
-//! Based on: the local pass of [Lischinski, Tampieri and Greenberg 1993]. Shooting has settled how bright the elements are; seen
-//! from a vertex that is all that is needed, and it is smoother than what any element holds.
+//! Based on: the local pass of [Lischinski, Tampieri and Greenberg 1993]. Shooting has settled how
+//! bright the elements are; seen from a vertex that is all that is needed, and it is smoother than
+//! what any element holds.
 //!
 //! [Lischinski, Tampieri and Greenberg 1993]: https://doi.org/10.1145/166117.166143
 
@@ -17,7 +18,8 @@ use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::{DeltaFactors, Hemicube, Sight};
 use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
 
-/// Cells along the edge of the hemicubes over vertices: they measure visibility only, and vertices are many.
+/// Cells along the edge of the hemicubes over vertices: they measure visibility only, and vertices
+/// are many.
 const RESOLUTION: usize = 64;
 
 /// Deepest division of a leaf seen from close by.

@@ -9,7 +9,8 @@ use crate::refine::Oracle;
 use crate::settings::Settings;
 
 /// Gathers indirect light at the patches' corners, then, level by level, where interpolation fails,
-/// dividing elements that direct light had left whole. A uniform mesh is gathered everywhere, and left as it is.
+/// dividing elements that direct light had left whole. A uniform mesh is gathered everywhere, and
+/// left as it is.
 pub(super) fn refine(
     (settings, oracle): (&Settings, &Oracle),
     gatherer: &mut Gatherer<'_>,
@@ -39,7 +40,8 @@ pub(super) fn refine(
     }
 }
 
-/// Divides the leaves among the candidates that interpolation does not do justice, and returns the parts of all such.
+/// Divides the leaves among the candidates that interpolation does not do justice, and returns the
+/// parts of all such.
 fn divide(
     oracle: &Oracle,
     mesh: &mut Mesh,

@@ -1,8 +1,8 @@
 //! Light on a mesh: direct light exactly, reflected light by progressive refinement, and a last gathering.
 //!
 //! Three scales of light, three passes. Light straight from emitters carries the hard edges and
-//! refines the mesh. Reflected light is exchanged between patches, coarsely. What arrives of it at the vertices is then gathered,
-//! and refines the mesh where it varies.
+//! refines the mesh. Reflected light is exchanged between patches, coarsely. What arrives of it at
+//! the vertices is then gathered, and refines the mesh where it varies.
 
 mod direct_pass;
 mod element_light;
@@ -104,10 +104,12 @@ const DARK: &str = "nothing in the scene emits light; give a material an emissio
 /// Gathering resolves differences down to this share of the tolerated error.
 const GATHER_SHARE: f64 = 0.1;
 
-/// Reflected light is exchanged this often: on the mesh that direct light asks for, and on the one that it itself does.
+/// Reflected light is exchanged this often: on the mesh that direct light asks for, and on the one
+/// that it itself does.
 const ROUNDS: usize = 2;
 
-/// Lights `surfaces`, telling `observe` about each step; when that breaks off, what is there is finished quickly.
+/// Lights `surfaces`, telling `observe` about each step; when that breaks off, what is there is
+/// finished quickly.
 ///
 /// # Errors
 /// When nothing emits light, or a setting is out of its range.

@@ -242,8 +242,8 @@ fn leaves_only(mesh: &Mesh, values: &[Rgb]) -> Vec<Rgb> {
 
 /// Factors by which what the links of a row carry becomes the `power` that should arrive, W.
 ///
-/// Elements of a shooter near others see more or less of them than the whole does; no light may be lost by that, or come
-/// from nowhere.
+/// Elements of a shooter near others see more or less of them than the whole does; no light may be
+/// lost by that, or come from nowhere.
 fn conserve(power: Rgb, row: &Row, radiosity: &BTreeMap<ElementId, Rgb>) -> Rgb {
     let carried: Rgb = row.links.iter().map(|link| radiosity[&link.source] * link.exchange).sum();
     let scale = Rgb::select(carried.cmpgt(Rgb::ZERO), power / carried, Rgb::ONE);

@@ -1,9 +1,9 @@
 //! How the light that a patch shoots arrives on the elements.
 //!
-//! A hemicube over the patch's centre tells what sees it and how much of each; the amounts are exact form factors,
-//! from points of the smaller to the whole of the larger of two polygons. Far apart, patches
-//! exchange light as wholes; near each other, their elements do, since light that enters a
-//! narrow gap at its edge must not come out in its middle.
+//! A hemicube over the patch's centre tells what sees it and how much of each; the amounts are
+//! exact form factors, from points of the smaller to the whole of the larger of two polygons. Far
+//! apart, patches exchange light as wholes; near each other, their elements do, since light that
+//! enters a narrow gap at its edge must not come out in its middle.
 
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -17,7 +17,8 @@ use crate::surface::polygon::centroid;
 /// Elements nearer to each other than this many of their sizes exchange light by their parts.
 const NEAR: f64 = 2.0;
 
-/// What is nearer to an element's centre than this share of its size is too close for the centre to see for all of it.
+/// What is nearer to an element's centre than this share of its size is too close for the centre to
+/// see for all of it.
 const CLOSE: f64 = 0.4;
 
 /// An element looks by its parts if more than this share of its view is close.
@@ -47,7 +48,8 @@ pub(super) struct Link {
 
 /// The row of one patch.
 ///
-/// Where something is so close that the patch's centre cannot see for all of it, its parts look for themselves.
+/// Where something is so close that the patch's centre cannot see for all of it, its parts look for
+/// themselves.
 pub(super) fn row(
     mesh: &Mesh,
     surfaces: &Surfaces,
@@ -80,7 +82,8 @@ pub(super) fn row(
     row
 }
 
-/// Angle by which the `index`-th hemicube is turned, radians: no two alike, so that their cells' errors do not add up.
+/// Angle by which the `index`-th hemicube is turned, radians: no two alike, so that their cells'
+/// errors do not add up.
 pub(super) fn turn(index: usize) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     (index as f64 * GOLDEN).fract() * std::f64::consts::FRAC_PI_2

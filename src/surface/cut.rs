@@ -71,7 +71,8 @@ fn clip(segment: Segment, lines: &[Line], tolerance: f64) -> Option<Segment> {
     inside.filter(|[a, b]| a.distance(*b) > tolerance)
 }
 
-/// The line of an even grid that divides a cell that is too large, moved onto a parallel segment if one is near.
+/// The line of an even grid that divides a cell that is too large, moved onto a parallel segment if
+/// one is near.
 fn grid_line(cell: &Cell, cuts: &Cuts<'_>) -> Option<Line> {
     let [low, high] = bounds(&cell.polygon);
     let extent = high - low;

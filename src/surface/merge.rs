@@ -90,7 +90,8 @@ fn plane_of(scene: &Scene, face: &Face) -> Plane {
     Plane::new(origin, normal.normalize_or(DVec3::Y), first.unwrap_or(DVec3::X))
 }
 
-/// True if `other` may be one region with `seed`. Facets of a curved surface stay apart: each has its own light.
+/// True if `other` may be one region with `seed`. Facets of a curved surface stay apart: each has
+/// its own light.
 fn continues(
     scene: &Scene,
     seed: usize,

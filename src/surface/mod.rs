@@ -54,13 +54,15 @@ pub struct Surface {
     pub uv: Option<DAffine2>,
     /// Unit normals of the curved surface it approximates, one per corner of the outer ring; empty if flat.
     pub normals: Vec<DVec3>,
-    /// True if it is one of the two sides of a double-sided polygon; the other side has an entry of its own.
+    /// True if it is one of the two sides of a double-sided polygon; the other side has an entry of
+    /// its own.
     pub two_sided: bool,
     /// True for the second entry of a double-sided polygon, which blocks no light beyond the first.
     pub is_back: bool,
 }
 
-/// Distances below this share of the scene's extent count as zero: ten times the rounding of 32-bit coordinates.
+/// Distances below this share of the scene's extent count as zero: ten times the rounding of 32-bit
+/// coordinates.
 const TOLERANCE: f64 = 2e-7;
 
 /// The surfaces of a scene and their contact lines.

@@ -10,7 +10,8 @@ use crate::scene::Texture;
 /// Most samples along one axis; finer textures are sampled, not integrated.
 const MOST_SAMPLES: f64 = 48.0;
 
-/// Mean colour of the reflectance's and of the emission's texture over a convex polygon on a surface; 1 without.
+/// Mean colour of the reflectance's and of the emission's texture over a convex polygon on a
+/// surface; 1 without.
 pub fn mean_texture(surfaces: &Surfaces, surface: &Surface, outline: &[DVec2]) -> [Rgb; 2] {
     let material = &surfaces.materials[surface.material as usize];
     [material.texture, material.emission_texture].map(|texture| {

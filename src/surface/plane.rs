@@ -16,7 +16,8 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The plane through `origin` with unit `normal`, whose first axis runs along `direction` as far as it can.
+    /// The plane through `origin` with unit `normal`, whose first axis runs along `direction` as
+    /// far as it can.
     pub fn new(origin: DVec3, normal: DVec3, direction: DVec3) -> Self {
         let along = direction - normal * direction.dot(normal);
         let u = along.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());

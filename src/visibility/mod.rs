@@ -93,7 +93,8 @@ impl Occluders {
         if self.polygons.is_empty() {
             return false;
         }
-        // With a unit direction: the hierarchy takes components below 1e-7 for zero, whatever the scene's size.
+        // With a unit direction: the hierarchy takes components below 1e-7 for zero, whatever the
+        // scene's size.
         let along = (b - a).normalize_or_zero().as_vec3a();
         let ray = Ray::new((a - self.centre).as_vec3a(), along, 0.0, a.distance(b) as f32);
         !self.bvh.ray_traverse_miss(ray, |_, slot| {

@@ -49,7 +49,8 @@ impl Shaft {
     }
 }
 
-/// The half spaces of all rays from `eye` through a polygon that it sees from the front (`height` positive) or back.
+/// The half spaces of all rays from `eye` through a polygon that it sees from the front (`height`
+/// positive) or back.
 fn cone(eye: DVec3, polygon: &[DVec3], height: f64) -> impl Iterator<Item = HalfSpace> + '_ {
     let inward = -height.signum();
     (0..polygon.len()).filter_map(move |k| {

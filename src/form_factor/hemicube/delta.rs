@@ -5,8 +5,9 @@ use std::f64::consts::PI;
 /// Delta form factors of all cells, row by row: the top face's rows, then those of the four half faces.
 ///
 /// With cells of area ΔA at (x, y, 1) on the top and at (±1, y, z) on a side,
-/// ΔF = ΔA / π(x² + y² + 1)² on the top and z ΔA / π(y² + z² + 1)² on the sides ([Cohen and Greenberg 1985]),
-/// scaled so that they sum to one, from which the midpoint rule differs by about 0.5 / resolution².
+/// ΔF = ΔA / π(x² + y² + 1)² on the top and z ΔA / π(y² + z² + 1)² on the sides ([Cohen and
+/// Greenberg 1985]), scaled so that they sum to one, from which the midpoint rule differs by about
+/// 0.5 / resolution².
 ///
 /// [Cohen and Greenberg 1985]: https://doi.org/10.1145/325334.325171
 #[derive(Clone, Debug)]

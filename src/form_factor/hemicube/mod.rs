@@ -1,9 +1,9 @@
 //! The hemicube: which patches a point sees, and how much of each.
 //!
-//! Based on: Cohen and Greenberg 1985, *The hemi-cube*. Patches are projected on the five faces with a z-buffer;
-//! a cell keeps the nearest. The *form factor* of what is seen is then not the sum of its cells' delta factors
-//! but the exact one of the polygon times the share of its cells that it kept: the cells only measure
-//! visibility, which takes most of the aliasing away.
+//! Based on: Cohen and Greenberg 1985, *The hemi-cube*. Patches are projected on the five faces
+//! with a z-buffer; a cell keeps the nearest. The *form factor* of what is seen is then not the sum
+//! of its cells' delta factors but the exact one of the polygon times the share of its cells that
+//! it kept: the cells only measure visibility, which takes most of the aliasing away.
 
 mod delta;
 mod raster;
@@ -16,10 +16,12 @@ use crate::visibility::Occluders;
 pub use delta::DeltaFactors;
 use raster::{Footprint, Raster, first_centre};
 
-/// Patches in one plane with the eye are seen edge-on, that is, not at all; heights below this, m, are rounding.
+/// Patches in one plane with the eye are seen edge-on, that is, not at all; heights below this, m,
+/// are rounding.
 const HAIR: f64 = 1e-11;
 
-/// Factor on the nearness of backs: of two faces back to back in one place, the front one must win over rounding.
+/// Factor on the nearness of backs: of two faces back to back in one place, the front one must win
+/// over rounding.
 const RECESS: f32 = 1.0 - 1e-5;
 
 /// No patch at all: light escapes through the cell.

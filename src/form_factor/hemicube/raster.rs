@@ -47,7 +47,8 @@ impl Raster {
         Self { resolution, spans: vec![[0.0; 2]; resolution], clipped: [Vec::new(), Vec::new()] }
     }
 
-    /// Hands the footprint of a polygon on each face it covers to `draw`. `frame` maps to the hemicube's axes.
+    /// Hands the footprint of a polygon on each face it covers to `draw`. `frame` maps to the
+    /// hemicube's axes.
     pub(super) fn project(
         &mut self,
         (eye, frame): (DVec3, &DMat3),
@@ -129,7 +130,8 @@ impl Face {
         self.look(if self.sign > 0.0 { high } else { low }).z > 0.0
     }
 
-    /// How far a point of the view is inside of each of the four planes through the eye that bound the face.
+    /// How far a point of the view is inside of each of the four planes through the eye that bound
+    /// the face.
     fn depths(&self, p: Vec3) -> [f32; 4] {
         [p.z + p.x, p.z - p.x, p.y - self.lowest * p.z, p.z - p.y]
     }
