@@ -66,11 +66,6 @@ impl Lamps {
         self.areas.is_empty() && self.points.is_empty()
     }
 
-    /// True if part of the light comes from points: such shadows are hard.
-    pub fn has_points(&self) -> bool {
-        !self.points.is_empty()
-    }
-
     /// What arrives at a place with unit `normal`.
     pub fn shine(&self, occluders: &Occluders, place: DVec3, normal: DVec3) -> Direct {
         let mut light = Direct::default();

@@ -7,6 +7,7 @@ use glam::DVec2;
 use smallvec::SmallVec;
 
 use super::{Corners, Element, ElementId, Mesh, Reason, VertexId};
+use crate::surface::polygon::{self, Convex};
 
 /// A quadrilateral this much longer than wide is halved, not quartered.
 const LONG: f64 = 1.8;
@@ -56,24 +57,26 @@ impl Mesh {
 
     /// The vertices in the middle of an element and of its edges, made where there are none.
     pub fn middle(&mut self, element: ElementId) -> Middle {
-        let Element { patch, corners, .. } = self[element].clone();
-        let at: SmallVec<[_; 8]> = corners.iter().map(|&v| self[v].position).collect();
-        let edges = (0..at.len())
-            .map(|k| self.vertex(patch, (at[k] + at[(k + 1) % at.len()]) * 0.5))
-            .collect();
-        let centre = self.vertex(patch, at.iter().sum::<DVec2>() / at.len() as f64);
-        Middle { edges, centre }
+        let patch = self[element].patch;
+        let (edges, centre) = self.middle_places(element);
+        let edges = edges.into_iter().map(|place| self.vertex(patch, place)).collect();
+        Middle { edges, centre: self.vertex(patch, centre) }
     }
 
     /// The vertices in the middle of an element and of its edges, if all are there.
     pub fn find_middle(&self, element: ElementId) -> Option<Middle> {
-        let Element { patch, corners, .. } = &self[element];
-        let at: SmallVec<[DVec2; 8]> = corners.iter().map(|&v| self[v].position).collect();
-        let edges = (0..at.len())
-            .map(|k| self.find_vertex(*patch, (at[k] + at[(k + 1) % at.len()]) * 0.5))
-            .collect::<Option<Corners>>()?;
-        let centre = self.find_vertex(*patch, at.iter().sum::<DVec2>() / at.len() as f64)?;
-        Some(Middle { edges, centre })
+        let patch = self[element].patch;
+        let (edges, centre) = self.middle_places(element);
+        let edges = edges.into_iter().map(|place| self.find_vertex(patch, place));
+        let edges = edges.collect::<Option<Corners>>()?;
+        Some(Middle { edges, centre: self.find_vertex(patch, centre)? })
+    }
+
+    /// Midpoints of an element's edges, and the mean of its corners, m.
+    fn middle_places(&self, element: ElementId) -> (Convex, DVec2) {
+        let corners = self.outline(element);
+        let edges = polygon::edges(&corners).map(|[a, b]| (a + b) * 0.5).collect();
+        (edges, corners.iter().sum::<DVec2>() / corners.len() as f64)
     }
 
     /// The division that keeps an element's parts as round as it can.

@@ -1,6 +1,6 @@
 //! Joins coplanar neighbours of one look into planar polygons, holes and all.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::{DAffine2, DMat2, DVec2, DVec3};
 
@@ -74,10 +74,6 @@ fn edges(face: &Face) -> impl Iterator<Item = [u32; 2]> + '_ {
     face.vertices.iter().zip(next).map(|(&a, &b)| [a, b])
 }
 
-fn corners<'a>(scene: &'a Scene, face: &'a Face) -> impl Iterator<Item = DVec3> + 'a {
-    face.vertices.iter().map(|&v| scene.positions[v as usize])
-}
-
 /// Best plane of a face (Newell's normal), its first axis along the longest edge.
 fn plane_of(scene: &Scene, face: &Face) -> Plane {
     let at = |v: u32| scene.positions[v as usize];
@@ -106,7 +102,7 @@ fn continues(
         (None, None) => true,
         (Some(a), Some(b)) => {
             (a.matrix2 - b.matrix2).abs_diff_eq(DMat2::ZERO, 1e-4)
-                && corners(scene, face).all(|p| {
+                && face.corners(&scene.positions).into_iter().all(|p| {
                     let p = plane.flatten(p);
                     a.transform_point2(p).distance(b.transform_point2(p)) < 1e-4
                 })
@@ -116,7 +112,7 @@ fn continues(
     same_look
         && flat
         && plane_of(scene, face).normal.dot(plane.normal) > 0.5
-        && corners(scene, face).all(|p| plane.height(p).abs() <= tolerance)
+        && face.corners(&scene.positions).into_iter().all(|p| plane.height(p).abs() <= tolerance)
         && same_picture()
 }
 
@@ -125,7 +121,8 @@ fn uv_map(scene: &Scene, plane: &Plane, face: &Face) -> Option<DAffine2> {
     if face.uvs.is_empty() || scene.materials[face.material as usize].texture.is_none() {
         return None;
     }
-    let places: Vec<DVec2> = corners(scene, face).map(|p| plane.flatten(p)).collect();
+    let places: Vec<DVec2> =
+        face.corners(&scene.positions).into_iter().map(|p| plane.flatten(p)).collect();
     let n = places.len();
     let frame = |points: &[DVec2], k: usize| {
         let (here, next, last) = (points[k], points[(k + 1) % n], points[(k + n - 1) % n]);
@@ -143,10 +140,9 @@ fn uv_map(scene: &Scene, plane: &Plane, face: &Face) -> Option<DAffine2> {
 fn outline(scene: &Scene, plane: &Plane, faces: &[usize]) -> Vec<Ring> {
     let mut follow: HashMap<u32, Vec<u32>> = HashMap::new();
     let mut starts = Vec::new();
-    let all: HashMap<[u32; 2], ()> =
-        faces.iter().flat_map(|&f| edges(&scene.faces[f])).map(|edge| (edge, ())).collect();
+    let all: HashSet<[u32; 2]> = faces.iter().flat_map(|&f| edges(&scene.faces[f])).collect();
     for [a, b] in faces.iter().flat_map(|&f| edges(&scene.faces[f])) {
-        if !all.contains_key(&[b, a]) {
+        if !all.contains(&[b, a]) {
             follow.entry(a).or_default().push(b);
             starts.push(a);
         }
