@@ -2,3 +2,6 @@
 
 pub mod contour;
 pub mod hemicube;
+mod matrix;
+
+pub use matrix::FormFactors;
