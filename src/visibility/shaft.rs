@@ -73,7 +73,7 @@ impl Occluders {
         pieces.push(source.into());
         self.for_each(
             |low, high| shaft.meets_box(low, high, self.tolerance),
-            |occluder| {
+            |_, occluder| {
                 if shaft.meets(&occluder.corners, self.tolerance) {
                     self.subtract(&mut pieces, eye, occluder, plane);
                 }
@@ -89,7 +89,7 @@ impl Occluders {
         let mut found = false;
         self.for_each(
             |low, high| shaft.meets_box(low, high, self.tolerance),
-            |occluder| {
+            |_, occluder| {
                 let height = occluder.plane.depth(eye);
                 found |= height.abs() > 2.0 * self.tolerance
                     && shaft.meets(&occluder.corners, self.tolerance);
@@ -100,7 +100,13 @@ impl Occluders {
     }
 
     /// Takes the shadow of an occluder out of the pieces of a source.
-    fn subtract(&self, pieces: &mut Pieces, eye: DVec3, occluder: &Occluder, source: HalfSpace) {
+    pub(super) fn subtract(
+        &self,
+        pieces: &mut Pieces,
+        eye: DVec3,
+        occluder: &Occluder,
+        source: HalfSpace,
+    ) {
         let height = occluder.plane.depth(eye);
         if height.abs() <= 2.0 * self.tolerance {
             return;
