@@ -75,7 +75,7 @@ impl Occluders {
             |low, high| shaft.meets_box(low, high, self.tolerance),
             |_, occluder| {
                 if shaft.meets(&occluder.corners, self.tolerance) {
-                    self.subtract(&mut pieces, eye, occluder, plane);
+                    subtract(&mut pieces, (eye, plane), occluder, self.tolerance);
                 }
                 !pieces.is_empty() && pieces.len() <= CROWDED
             },
@@ -98,32 +98,32 @@ impl Occluders {
         );
         found
     }
+}
 
-    /// Takes the shadow of an occluder out of the pieces of a source.
-    pub(super) fn subtract(
-        &self,
-        pieces: &mut Pieces,
-        eye: DVec3,
-        occluder: &Occluder,
-        source: HalfSpace,
-    ) {
-        let height = occluder.plane.depth(eye);
-        if height.abs() <= 2.0 * self.tolerance {
-            return;
-        }
-        // What lies behind the source's plane hides nothing.
-        let crosses = occluder.corners.iter().any(|&corner| source.depth(corner) < 0.0);
-        let front = if crosses { source.clip(&occluder.corners) } else { occluder.corners.clone() };
-        if front.is_empty() {
-            return;
-        }
-        let shadow: SmallVec<[HalfSpace; 8]> = cone(eye, &front, height).collect();
-        let mut visible = Pieces::new();
-        for piece in pieces.drain(..) {
-            subtract_cone(piece, &shadow, self.tolerance * 1e-3, &mut visible);
-        }
-        *pieces = visible;
+/// Takes the shadow that an occluder throws from an eye out of the pieces of a source in front of which
+/// the eye is.
+pub(super) fn subtract(
+    pieces: &mut Pieces,
+    (eye, source): (DVec3, HalfSpace),
+    occluder: &Occluder,
+    tolerance: f64,
+) {
+    let height = occluder.plane.depth(eye);
+    if height.abs() <= 2.0 * tolerance {
+        return;
     }
+    // What lies behind the source's plane hides nothing.
+    let crosses = occluder.corners.iter().any(|&corner| source.depth(corner) < 0.0);
+    let front = if crosses { source.clip(&occluder.corners) } else { occluder.corners.clone() };
+    if front.is_empty() {
+        return;
+    }
+    let shadow: SmallVec<[HalfSpace; 8]> = cone(eye, &front, height).collect();
+    let mut visible = Pieces::new();
+    for piece in pieces.drain(..) {
+        subtract_cone(piece, &shadow, tolerance * 1e-3, &mut visible);
+    }
+    *pieces = visible;
 }
 
 /// Adds to `visible` what of a piece is outside of at least one of the half spaces.

@@ -8,6 +8,9 @@ const PARALLEL: f64 = 1e-9;
 /// Deepest bisection of an edge; beyond it, what is left of a logarithm's singularity is rounding.
 const DEEPEST: u32 = 30;
 
+/// Differences below this share of the product of two edges' lengths are rounding.
+const ROUNDING: f64 = 1e-14;
+
 /// ∫∫ ln(r / `unit`) dx·dy over x on edge `a` and y on edge `b`, m², but for
 /// -∫∫ dx·dy, which cancels around closed contours, to within `tolerance`, m².
 ///
@@ -27,7 +30,8 @@ pub(super) fn log_distance(a: [DVec3; 2], b: [DVec3; 2], unit: f64, tolerance: f
     let (outer, inner) = if along_a.length() < along_b.length() { (a, b) } else { (b, a) };
     let length = outer[0].distance(outer[1]);
     let value = |s: f64| from_point(outer[0].lerp(outer[1], s), inner, unit) * length;
-    cosine * integrate(&value, [0.0, 1.0], tolerance / cosine.abs(), DEEPEST)
+    let tolerance = (tolerance / cosine.abs()).max(ROUNDING * lengths);
+    cosine * integrate(&value, [0.0, 1.0], tolerance, DEEPEST)
 }
 
 /// The same for parallel edges: second antiderivatives of ln r along the common direction.
