@@ -114,26 +114,27 @@ pub(super) fn subtract(
     }
     // What lies behind the source's plane hides nothing.
     let crosses = occluder.corners.iter().any(|&corner| source.depth(corner) < 0.0);
-    let front = if crosses { source.clip(&occluder.corners) } else { occluder.corners.clone() };
+    let clipped = if crosses { source.clip(&occluder.corners) } else { Polygon::new() };
+    let front = if crosses { &clipped } else { &occluder.corners };
     if front.is_empty() {
         return;
     }
-    let shadow: SmallVec<[HalfSpace; 8]> = cone(eye, &front, height).collect();
-    let mut visible = Pieces::new();
-    for piece in pieces.drain(..) {
-        subtract_cone(piece, &shadow, tolerance * 1e-3, &mut visible);
-    }
-    *pieces = visible;
+    let shadow: SmallVec<[HalfSpace; 8]> = cone(eye, front, height).collect();
+    let tolerance = tolerance * 1e-3;
+    let mut cut = Pieces::new();
+    pieces.retain(|piece| {
+        let is_clear = shadow.iter().any(|side| piece.iter().all(|&p| side.depth(p) <= tolerance));
+        if !is_clear {
+            subtract_cone(piece, &shadow, tolerance, &mut cut);
+        }
+        is_clear
+    });
+    pieces.append(&mut cut);
 }
 
 /// Adds to `visible` what of a piece is outside of at least one of the half spaces.
-fn subtract_cone(piece: Polygon, cone: &[HalfSpace], tolerance: f64, visible: &mut Pieces) {
-    let misses = |side: &HalfSpace| piece.iter().all(|&p| side.depth(p) <= tolerance);
-    if cone.iter().any(misses) {
-        visible.push(piece);
-        return;
-    }
-    let mut rest = piece;
+fn subtract_cone(piece: &Polygon, cone: &[HalfSpace], tolerance: f64, visible: &mut Pieces) {
+    let mut rest = piece.clone();
     for side in cone {
         if rest.iter().any(|&p| side.depth(p) < -tolerance) {
             let outside = side.complement().clip(&rest);
