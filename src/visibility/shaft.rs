@@ -67,6 +67,17 @@ impl Occluders {
     /// Exact for any number of convex occluders, but for those in one plane with the eye.
     /// `None` if so many stand in the way that cutting them out does not pay.
     pub fn visible_part(&self, eye: DVec3, source: &[DVec3], normal: DVec3) -> Option<Pieces> {
+        self.visible_pieces(eye, source, normal, CROWDED)
+    }
+
+    /// As [`Self::visible_part`], giving up at more than `most` pieces.
+    pub fn visible_pieces(
+        &self,
+        eye: DVec3,
+        source: &[DVec3],
+        normal: DVec3,
+        most: usize,
+    ) -> Option<Pieces> {
         let facet = Facet::new(source, normal);
         let shaft = Shaft::new(eye, source, facet.plane);
         let mut pieces = Pieces::new();
@@ -77,10 +88,10 @@ impl Occluders {
                 if shaft.meets(&occluder.corners, self.tolerance) {
                     subtract(&mut pieces, (eye, facet), occluder, self.tolerance);
                 }
-                !pieces.is_empty() && pieces.len() <= CROWDED
+                !pieces.is_empty() && pieces.len() <= most
             },
         );
-        (pieces.len() <= CROWDED).then_some(pieces)
+        (pieces.len() <= most).then_some(pieces)
     }
 
     /// True if something may stand between `eye` and a part of `source`.
