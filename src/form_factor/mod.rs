@@ -3,5 +3,6 @@
 pub mod contour;
 pub mod hemicube;
 mod matrix;
+pub mod rays;
 
 pub use matrix::FormFactors;

@@ -61,8 +61,7 @@ struct Bins {
 /// places in `boxes`, in the order of the leaves.
 pub fn hierarchy(boxes: &[Aabb]) -> Bvh2 {
     let numbered = boxes.iter().zip(0..);
-    let mut items: Vec<Item> =
-        numbered.map(|(&bounds, index)| Item { bounds, index }).collect();
+    let mut items: Vec<Item> = numbered.map(|(&bounds, index)| Item { bounds, index }).collect();
     let mut tree = Bvh2 { max_depth: 1, ..Bvh2::default() };
     if items.is_empty() {
         return tree;

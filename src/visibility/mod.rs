@@ -2,6 +2,8 @@
 
 mod clip;
 pub mod hierarchy;
+pub mod packet;
+mod patches;
 mod shaft;
 
 use glam::{DVec3, Vec3A};
@@ -15,6 +17,7 @@ use crate::surface::cut::{Cuts, convex_pieces};
 
 pub use clip::{HalfSpace, Polygon};
 use hierarchy::hierarchy;
+pub use patches::PatchHierarchy;
 pub use shaft::Pieces;
 
 /// All that blocks light: convex pieces of the surfaces, from both sides.

@@ -4,3 +4,5 @@
 mod common;
 
 mod hierarchy;
+mod patches;
+mod sphere;

@@ -6,6 +6,8 @@
 //! it kept: the cells only measure visibility, which takes most of the aliasing away.
 
 mod delta;
+#[cfg_attr(not(test), expect(dead_code, reason = "wired in next"))]
+mod packets;
 mod raster;
 
 use glam::{DMat3, DVec3};
@@ -209,7 +211,7 @@ impl Footprint<'_> {
 }
 
 /// Rotation into the axes of a hemicube: its rows are the hemicube's x, y and z.
-fn frame(normal: DVec3, turn: f64) -> DMat3 {
+pub(super) fn frame(normal: DVec3, turn: f64) -> DMat3 {
     let (sine, cosine) = turn.sin_cos();
     let (x, y) = normal.any_orthonormal_pair();
     DMat3::from_cols(x * cosine + y * sine, y * cosine - x * sine, normal).transpose()
