@@ -59,14 +59,13 @@ fn build(builder: &str, boxes: &[Aabb]) -> Bvh2 {
     build_bvh2(boxes, params, &mut Duration::default())
 }
 
-fn padded(walls: &[(Aabb, usize)]) -> Vec<Aabb> {
-    let padding = Vec3A::splat(1e-4);
-    walls.iter().map(|(b, _)| Aabb::new(b.min - padding, b.max + padding)).collect()
+fn boxes(walls: &[(Aabb, usize)]) -> Vec<Aabb> {
+    walls.iter().map(|(bounds, _)| *bounds).collect()
 }
 
 #[divan::bench(args = BUILDERS)]
 fn build_room_of_98_304(bencher: Bencher<'_, '_>, builder: &str) {
-    let boxes = padded(&walls());
+    let boxes = boxes(&walls());
     bencher.counter(ItemsCount::new(boxes.len())).bench(|| build(builder, black_box(&boxes)));
 }
 
@@ -84,7 +83,7 @@ fn rays(count: usize) -> impl Iterator<Item = Ray> {
 #[divan::bench(args = BUILDERS)]
 fn rays_in_room_of_98_304(bencher: Bencher<'_, '_>, builder: &str) {
     let walls = walls();
-    let tree = build(builder, &padded(&walls));
+    let tree = build(builder, &boxes(&walls));
     let slots: Vec<(Aabb, usize)> =
         tree.primitive_indices.iter().map(|&k| walls[k as usize]).collect();
     let rays: Vec<Ray> = rays(4096).collect();

@@ -18,7 +18,7 @@ const BINS: usize = 16;
 const LEAF: usize = 4;
 
 /// Cost of visiting a node, in tests of a box's content.
-const VISIT: f32 = 1.0;
+const VISIT: f32 = 0.5;
 
 /// Levels beyond those of a balanced tree before nodes are simply halved.
 const PATIENCE: u32 = 24;

@@ -80,7 +80,7 @@ impl WithSimd for Cast<'_> {
 /// Visits the nodes that a ray of the packet enters, near ones first.
 #[inline(always)]
 fn walk(scene: &PatchHierarchy, (eye, origin): (DVec3, Vec3A), packet: &mut Packet) {
-    let inverse = packet.directions.map(|component| component.map(inverse));
+    let inverse = from_fn(|axis| from_fn(|ray| inverse(packet.directions[axis][ray])));
     let mut walk = Walk { origin, inverse, ends: [f32::INFINITY; RAYS] };
     let mut stack: SmallVec<[(u32, f32); 64]> = SmallVec::new();
     let nodes = &scene.bvh.nodes[..];
