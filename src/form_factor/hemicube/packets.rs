@@ -98,8 +98,10 @@ mod tests {
     use super::*;
     use crate::form_factor::hemicube::{DeltaFactors, Hemicube};
     use crate::mesh::Mesh;
+    use crate::scene::load;
+    use crate::settings::{Length, Settings};
+    use crate::surface::surfaces_of;
     use crate::visibility::Occluders;
-    use crate::{Length, Settings, load, surfaces_of};
 
     #[test]
     fn rays_and_projection_fill_the_same_cells() {
