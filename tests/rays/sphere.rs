@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use radiosity::form_factor::contour::point_to_polygon;
-use radiosity::form_factor::hemicube::{DeltaFactors, Hemicube};
+use radiosity::form_factor::hemicube::{self, DeltaFactors, Hemicube};
 use radiosity::form_factor::rays::{Rays, Sphere};
 use radiosity::mesh::{Mesh, Patch};
 use radiosity::surfaces_of;
@@ -15,7 +15,7 @@ use crate::patches::{blocks, mesh_of};
 fn triangle(k: usize) -> [DVec3; 3] {
     let share = |step: f64| 2.0 * ((k as f64 + 1.0) * step).fract() - 1.0;
     let middle = DVec3::new(2.0 * share(0.618_034), 2.0 * share(0.754_878), 1.5 + share(0.569_84));
-    let size = if k % 2 == 0 { 0.4 } else { 0.1 };
+    let size = if k.is_multiple_of(2) { 0.4 } else { 0.1 };
     [[0.819_17, 0.671_04, 0.549_7], [0.856_67, 0.733_89, 0.628_71], [0.880_27, 0.774_88, 0.682_1]]
         .map(|steps| middle + size * DVec3::from(steps.map(share)))
 }
@@ -153,4 +153,37 @@ fn a_million_rays_err_a_third_of_a_plain_hemicube_at_most() {
     }
     assert!(by_rays < by_cells / 3.0, "{by_rays:e} for {by_cells:e}");
     assert!(by_rays / 3.0 < 1e-4, "{by_rays:e}");
+}
+
+#[test]
+fn a_hemicube_of_fewer_cells_than_patches_looks_by_rays() {
+    let scene = furnished_room(&blocks());
+    let mesh = mesh_of(&scene, 60.0);
+    let coarse = mesh_of(&scene, 6.0);
+    let (occluders, delta) = (Occluders::new(&surfaces_of(&scene)), DeltaFactors::new(32));
+    assert!(mesh.patches.len() > delta.cells().len(), "only {} patches", mesh.patches.len());
+    let (fine, rough) = (PatchHierarchy::new(&mesh.patches), PatchHierarchy::new(&coarse.patches));
+    let by_surface = |mesh: &Mesh, sights: &[hemicube::Sight]| {
+        let mut factors = vec![0.0; 1 + mesh.patches.last().map_or(0, |p| p.surface as usize)];
+        sights.iter().for_each(|s| factors[mesh[s.patch].surface as usize] += s.delta);
+        factors
+    };
+    for eye in eyes().take(4) {
+        let mut by_rays = Hemicube::new(&delta, &occluders).with_rays(&fine);
+        let seen = by_rays.look(&mesh.patches, (eye, DVec3::Y), 0.3);
+        let mut drawn = Hemicube::new(&delta, &occluders).with_rays(&rough);
+        let expected = drawn.look(&coarse.patches, (eye, DVec3::Y), 0.3);
+        assert_eq!(by_rays.escaping(), 0.0, "at {eye}");
+        assert!(seen.is_sorted_by_key(|sight| sight.patch) && seen.iter().all(|s| s.front));
+        // Cells do not know how surfaces are cut into patches.
+        let (seen_of, expected_of) = (by_surface(&mesh, &seen), by_surface(&coarse, &expected));
+        for (f, e) in seen_of.iter().zip(&expected_of) {
+            assert!((f - e).abs() < 2e-3, "{f} for {e} at {eye}");
+        }
+        let sum: f64 = seen
+            .iter()
+            .map(|s| s.visible * point_to_polygon(eye, DVec3::Y, &mesh[s.patch].corners))
+            .sum();
+        assert!((sum - 1.0).abs() < 1e-4, "shares of form factors add up to {sum} at {eye}");
+    }
 }
