@@ -4,5 +4,6 @@
 mod common;
 
 mod hierarchy;
+mod occluders;
 mod patches;
 mod sphere;
