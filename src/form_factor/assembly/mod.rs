@@ -1,54 +1,110 @@
 //! All form factors of a scene's patches, by the method of one's choice.
 
 mod contour;
+mod point;
+mod sampled;
+mod views;
 
 use std::ops::{ControlFlow, Range};
 
 use rayon::prelude::*;
 
 use super::FormFactors;
+use super::hemicube::DeltaFactors;
+use super::pair::exchange;
+use super::rays::Sphere;
 use crate::mesh::Patch;
-use crate::visibility::Occluders;
+use crate::visibility::{Facet, Occluders, PatchHierarchy};
+
+pub use point::factors_at;
 
 /// How form factors are found.
+///
+/// Where nothing stands between two patches, all methods use the exact formula; they differ in how
+/// they find what is hidden.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// Exact formulas, integrated over one of two patches where something stands between them.
+    /// Exactly: what occluders hide is cut away, and the rest integrated.
     Contour,
+    /// By hemicubes with this many cells, an even number, along an edge.
+    Hemicube(u32),
+    /// By spheres of this many rays.
+    Rays(u32),
+}
+
+/// The form factors of a scene.
+#[derive(Clone, Debug)]
+pub struct Assembled {
+    /// The matrix.
+    pub factors: FormFactors,
+    /// Share of each patch's light that meets the black backs of others.
+    pub on_backs: Vec<f64>,
+    /// Rows that were finished; the others are empty.
+    pub rows: usize,
 }
 
 /// Rows computed between two reports of progress. A number of its own, so that threads change nothing.
 const BATCH: usize = 64;
 
-/// A row: (column, factor), columns ascending.
+/// Rows whose sums are nearer to one than this have no light on backs worth looking for.
+const CLOSED: f64 = 1e-3;
+
+/// A row: (column, factor or exchange), columns ascending.
 type Row = Vec<(u32, f64)>;
 
-/// The form factors between all `patches`, `observe`d with the share that is done, 0..=1; when that
-/// breaks off, the rows that are missing are empty.
+/// The form factors between all `patches`, telling `observe` how much is done, 0..=1; when that breaks
+/// off, the rows that are missing are empty.
+///
+/// By hemicubes and rays, each pair has two estimates; their mean is taken, so that all matrices are
+/// reciprocal and the sums of their rows tell how good they are.
 pub fn assemble(
     patches: &[Patch],
     occluders: &Occluders,
     method: Method,
     mut observe: impl FnMut(f64) -> ControlFlow<()>,
-) -> FormFactors {
+) -> Assembled {
+    let exchanges = contour::Exchanges::new(patches, occluders);
     let mut rows: Vec<Row> = Vec::with_capacity(patches.len());
+    let areas: Vec<f64> = patches.iter().map(|patch| patch.area).collect();
     match method {
         Method::Contour => {
-            let exchanges = contour::Exchanges::new(patches, occluders);
-            in_batches(patches.len(), &mut rows, |i| exchanges.row(i), &mut observe);
+            in_batches(patches.len(), &mut rows, || (), |(), i| exchanges.row(i), &mut observe);
+        }
+        Method::Hemicube(resolution) => {
+            let delta = DeltaFactors::new(resolution as usize);
+            let looker = || views::Cells::new(patches, occluders, &delta);
+            let row = |look: &mut views::Cells<'_>, i| sampled::row(patches, i, look);
+            in_batches(patches.len(), &mut rows, looker, row, &mut observe);
+        }
+        Method::Rays(count) => {
+            let (sphere, hierarchy) = (Sphere::new(count as usize), PatchHierarchy::new(patches));
+            let looker = || views::Sphere::new(patches, occluders, (&sphere, &hierarchy));
+            let row = |look: &mut views::Sphere<'_>, i| sampled::row(patches, i, look);
+            in_batches(patches.len(), &mut rows, looker, row, &mut observe);
         }
     }
+    let done = rows.len();
     rows.resize(patches.len(), Row::new());
-    let areas: Vec<f64> = patches.iter().map(|patch| patch.area).collect();
+    if method != Method::Contour {
+        rows = exchanges_of(patches, occluders, &FormFactors::from_rows(areas.clone(), rows));
+    }
     mirror(&mut rows, &areas);
-    FormFactors::from_rows(areas, rows)
+    rows[done..].iter_mut().for_each(Vec::clear);
+    let factors = FormFactors::from_rows(areas, rows);
+    let sums = factors.row_sums();
+    let on_backs = |(i, sum): (usize, f64)| {
+        if i < done && sum < 1.0 - CLOSED { exchanges.on_backs(i) } else { 0.0 }
+    };
+    let on_backs = sums.into_par_iter().enumerate().map(on_backs).collect();
+    Assembled { factors, on_backs, rows: done }
 }
 
 /// Computes rows 0..`count`, all threads at work, until `observe` breaks off.
-fn in_batches(
+fn in_batches<T>(
     count: usize,
     rows: &mut Vec<Row>,
-    row: impl Fn(usize) -> Row + Sync,
+    tool: impl Fn() -> T + Sync + Send,
+    row: impl Fn(&mut T, usize) -> Row + Sync + Send,
     observe: &mut impl FnMut(f64) -> ControlFlow<()>,
 ) {
     while rows.len() < count {
@@ -56,9 +112,43 @@ fn in_batches(
         if observe(batch.start as f64 / count as f64).is_break() {
             return;
         }
-        let done: Vec<Row> = batch.into_par_iter().map(&row).collect();
+        let done: Vec<Row> = batch.into_par_iter().map_init(&tool, &row).collect();
         rows.extend(done);
     }
+}
+
+/// Exchanges above the diagonal, m²: exact where nothing stands between, else the mean of the two
+/// estimates.
+fn exchanges_of(patches: &[Patch], occluders: &Occluders, factors: &FormFactors) -> Vec<Row> {
+    let transposed = factors.transposed();
+    let row = |i: usize| {
+        let this = Facet::new(&patches[i].corners, patches[i].normal);
+        let above = |&(j, _): &(usize, f64)| j > i;
+        let there: Row =
+            factors.row(i).filter(above).map(|(j, f)| (j as u32, f * patches[i].area)).collect();
+        let back = transposed.row(i).filter(above).map(|(j, f)| (j as u32, f * patches[j].area));
+        let exact = |(j, sum): (u32, f64)| {
+            let patch = &patches[j as usize];
+            let other = Facet::new(&patch.corners, patch.normal);
+            let clear = occluders.between(this, other).is_empty();
+            (j, if clear { exchange(this, other) } else { 0.5 * sum })
+        };
+        merged(there, back).into_iter().map(exact).collect()
+    };
+    (0..patches.len()).into_par_iter().map(row).collect()
+}
+
+/// Sums of the values of two lists with ascending columns.
+fn merged(first: Row, second: impl Iterator<Item = (u32, f64)>) -> Row {
+    let mut both = first;
+    both.extend(second);
+    both.sort_by_key(|&(column, _)| column);
+    both.dedup_by(|next, kept| {
+        let same = next.0 == kept.0;
+        kept.1 += if same { next.1 } else { 0.0 };
+        same
+    });
+    both
 }
 
 /// Completes exchanges above the diagonal to form factors on both of its sides.

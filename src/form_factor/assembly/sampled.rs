@@ -32,7 +32,8 @@ pub(super) trait Look {
 /// Form factors from a patch: means over points that are added until the row keeps still.
 ///
 /// What is clear from everywhere will be computed exactly and has no say.
-pub(super) fn row(patch: &Patch, index: usize, count: usize, look: &mut impl Look) -> Row {
+pub(super) fn row(patches: &[Patch], index: usize, look: &mut impl Look) -> Row {
+    let (patch, count) = (&patches[index], patches.len());
     let mut before = Sum::from_points(patch, (index, 0), count, look);
     for level in 1..=MOST_LEVELS {
         if before.partly_hidden() <= TOLERANCE {
@@ -80,7 +81,8 @@ impl Sum {
 
     /// Share of all light that arrives elsewhere than `before`.
     fn change(&self, before: &Self) -> f64 {
-        let pairs = self.factors.iter().zip(&before.factors).zip(self.clear.iter().zip(&before.clear));
+        let pairs =
+            self.factors.iter().zip(&before.factors).zip(self.clear.iter().zip(&before.clear));
         let partly = pairs.filter(|(_, (now, then))| !(**now && **then));
         0.5 * partly.map(|((now, then), _)| (now - then).abs()).sum::<f64>()
     }

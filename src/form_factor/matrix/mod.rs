@@ -61,4 +61,13 @@ impl FormFactors {
         let found = self.columns[entries.clone()].binary_search(&(j as u32));
         found.map_or(0.0, |k| self.factors[entries.start + k])
     }
+
+    /// The matrix with rows for columns.
+    pub fn transposed(&self) -> Self {
+        let mut rows = vec![Vec::new(); self.len()];
+        for i in 0..self.len() {
+            self.row(i).for_each(|(j, factor)| rows[j].push((i as u32, factor)));
+        }
+        Self::from_rows(self.areas.clone(), rows)
+    }
 }

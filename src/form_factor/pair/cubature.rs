@@ -52,7 +52,9 @@ impl Rule {
 }
 
 /// A convex polygon as a fan of quadrilaterals; a triangle is one with two corners in one place.
-pub(in crate::form_factor) fn quadrilaterals(polygon: &[DVec3]) -> impl Iterator<Item = [DVec3; 4]> + '_ {
+pub(in crate::form_factor) fn quadrilaterals(
+    polygon: &[DVec3],
+) -> impl Iterator<Item = [DVec3; 4]> + '_ {
     let last = polygon.len() - 1;
     let corner = move |k: usize| polygon[k.min(last)];
     (1..last).step_by(2).map(move |k| [polygon[0], corner(k), corner(k + 1), corner(k + 2)])
