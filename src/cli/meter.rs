@@ -70,15 +70,19 @@ impl Meter {
 
     /// Follows the solver.
     pub(crate) fn follow(&mut self, progress: &Progress) {
-        let phase = name(progress.phase);
+        self.advance(name(progress.phase), progress.done);
+    }
+
+    /// Tells how much of a phase is done, 0..=1; a new one ends the one before.
+    pub(crate) fn advance(&mut self, phase: &'static str, done: f64) {
         if self.current.as_ref().is_none_or(|current| current.phase != phase) {
             self.begin(phase);
         }
         let Some(current) = &mut self.current else {
             return;
         };
-        current.bar.set_position((progress.done * STEPS) as u64);
-        let tenth = (progress.done * 10.0) as u32;
+        current.bar.set_position((done * STEPS) as u64);
+        let tenth = (done * 10.0) as u32;
         if tenth > current.tenth {
             current.tenth = tenth;
             if self.tenths && !self.on_terminal {

@@ -2,8 +2,10 @@
 
 mod config;
 mod console;
+mod enclosure;
 mod facts;
 mod failure;
+mod form_factors;
 mod info;
 mod interrupt;
 mod meter;
@@ -33,6 +35,7 @@ const EXAMPLES: &str = "\
 Examples:
   radiosity solve scenes/cornell-box.obj -o cornell.glb --image cornell.png
   radiosity render cornell.glb -o mesh.png --wireframe
+  radiosity form-factors scenes/furnace.obj --patch-size 1 -o F.json
   radiosity info scenes/office.obj
 
 `radiosity help solve` explains every option. Exit codes: 0 done, 1 failed, 2 wrong usage.";
@@ -41,6 +44,7 @@ Examples:
 enum Command {
     Solve(Box<solve::Solve>),
     Render(render::Render),
+    FormFactors(form_factors::FormFactors),
     Info(info::Info),
 }
 
@@ -68,6 +72,7 @@ impl Command {
         match self {
             Self::Solve(solve) => solve.run(),
             Self::Render(render) => render.run(),
+            Self::FormFactors(form_factors) => form_factors.run(),
             Self::Info(info) => info.run(),
         }
     }

@@ -17,6 +17,15 @@ pub(crate) fn check(input: &Path, meshes: &[PathBuf], pictures: &[PathBuf]) -> R
     Ok(())
 }
 
+/// The same for matrices of form factors.
+pub(crate) fn check_factors(input: &Path, outputs: &[PathBuf]) -> Result<()> {
+    for path in outputs {
+        refuse_input(input, path)?;
+        export::check_writable_factors(path)?;
+    }
+    Ok(())
+}
+
 fn refuse_input(input: &Path, output: &Path) -> Result<()> {
     match (input.canonicalize(), output.canonicalize()) {
         (Ok(input), Ok(output)) if input == output => {

@@ -9,6 +9,7 @@ use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
 use crate::colour::Rgb;
+use crate::surface::Plane;
 use crate::surface::polygon::{self, Convex};
 
 pub use ids::{ElementId, PatchId, VertexId};
@@ -155,6 +156,11 @@ impl Mesh {
     /// An element's corners on its surface's plane, m.
     pub fn outline(&self, element: ElementId) -> Convex {
         self[element].corners.iter().map(|&v| self[v].position).collect()
+    }
+
+    /// An element's centre of gravity in space, m, on its surface's `plane`.
+    pub fn centre(&self, element: ElementId, plane: &Plane) -> DVec3 {
+        plane.lift(polygon::centroid(&self.outline(element)))
     }
 
     /// Mean lengths of a quadrilateral's edges 0 and 2, and of its edges 1 and 3, m;

@@ -32,6 +32,17 @@ pub(crate) fn vector(text: &str) -> Result<DVec3, String> {
     }
 }
 
+/// A point and a direction, `0,0,0,0,1,0`; the direction is made a unit vector.
+pub(crate) fn place(text: &str) -> Result<(DVec3, DVec3), String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|part| number(part.trim()).ok()).collect();
+    let Some(&[x, y, z, nx, ny, nz]) = numbers.as_deref() else {
+        return Err("write six numbers: a point x,y,z in metres and a normal x,y,z".to_owned());
+    };
+    let normal = DVec3::new(nx, ny, nz).try_normalize();
+    let normal = normal.ok_or("the normal, the last three numbers, has no direction")?;
+    Ok((DVec3::new(x, y, z), normal))
+}
+
 /// `0.001` or `0.1%`.
 pub(crate) fn share(text: &str) -> Result<f64, String> {
     match text.strip_suffix('%') {
@@ -94,6 +105,12 @@ mod tests {
     fn vectors_may_be_negative_and_must_have_three_numbers() {
         assert_eq!(vector("-1,2.5,3e-1"), Ok(DVec3::new(-1.0, 2.5, 0.3)));
         assert!(vector("1,2").is_err() && vector("1,2,3,4").is_err() && vector("1,2,inf").is_err());
+    }
+
+    #[test]
+    fn a_place_has_a_normal_of_length_one() {
+        assert_eq!(place("1,2,3,0,0,-4"), Ok((DVec3::new(1.0, 2.0, 3.0), DVec3::NEG_Z)));
+        assert!(place("1,2,3").is_err() && place("1,2,3,0,0,0").is_err());
     }
 
     #[test]
