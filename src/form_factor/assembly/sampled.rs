@@ -13,6 +13,9 @@ const TOLERANCE: f64 = 0.03;
 /// Most often that points are made four times as many.
 const MOST_LEVELS: u32 = 4;
 
+/// Patches nearer to each other than this share of their size touch.
+const TOUCHING: f64 = 1e-6;
+
 /// Something that a point sees.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seen {
@@ -33,7 +36,8 @@ pub(super) trait Look {
 ///
 /// What is clear from everywhere will be computed exactly and has no say.
 pub(super) fn row(patches: &[Patch], index: usize, look: &mut impl Look) -> Row {
-    let (patch, count) = (&patches[index], patches.len());
+    let count = patches.len();
+    let patch = &Looking { patch: &patches[index], covers: covers(patches, index) };
     let mut before = Sum::from_points(patch, (index, 0), count, look);
     for level in 1..=MOST_LEVELS {
         if before.partly_hidden() <= TOLERANCE {
@@ -49,6 +53,41 @@ pub(super) fn row(patches: &[Patch], index: usize, look: &mut impl Look) -> Row 
     before.into_row()
 }
 
+/// A patch to look from, and what lies on it.
+struct Looking<'a> {
+    patch: &'a Patch,
+    covers: Vec<Cover<'a>>,
+}
+
+/// A patch in the same plane that faces the other way: from where it covers nothing else is seen.
+struct Cover<'a> {
+    index: u32,
+    patch: &'a Patch,
+}
+
+impl Cover<'_> {
+    fn holds(&self, point: DVec3) -> bool {
+        let (corners, normal) = (&self.patch.corners, self.patch.normal);
+        (0..corners.len()).all(|k| {
+            let (from, to) = (corners[k], corners[(k + 1) % corners.len()]);
+            (to - from).cross(point - from).dot(normal) >= 0.0
+        })
+    }
+}
+
+/// The patches that lie face to face on one of them; the two sides of one polygon do not.
+fn covers(patches: &[Patch], index: usize) -> Vec<Cover<'_>> {
+    let patch = &patches[index];
+    let nearness = TOUCHING * patch.area.sqrt();
+    let lies_on = |other: &Patch| {
+        other.normal.dot(patch.normal) < -1.0 + TOUCHING
+            && (other.corners[0] - patch.corners[0]).dot(patch.normal).abs() < nearness
+            && !(other.two_sided && patch.two_sided)
+    };
+    let covers = patches.iter().zip(0..).filter(|(other, _)| lies_on(other));
+    covers.map(|(patch, index)| Cover { index, patch }).collect()
+}
+
 /// Sums over points, one entry a patch.
 struct Sum {
     factors: Vec<f64>,
@@ -57,7 +96,7 @@ struct Sum {
 
 impl Sum {
     fn from_points(
-        patch: &Patch,
+        Looking { patch, covers }: &Looking<'_>,
         (index, level): (usize, u32),
         count: usize,
         look: &mut impl Look,
@@ -65,6 +104,10 @@ impl Sum {
         let mut sum = Self { factors: vec![0.0; count], clear: vec![true; count] };
         let points = points(patch, 1 << level);
         for (k, (eye, weight)) in points.into_iter().enumerate() {
+            if let Some(cover) = covers.iter().find(|cover| cover.holds(eye)) {
+                sum.factors[cover.index as usize] += weight;
+                continue;
+            }
             for seen in look.look(eye, patch.normal, turn(index + 7 * k)) {
                 sum.factors[seen.patch as usize] += weight * seen.factor;
                 sum.clear[seen.patch as usize] &= seen.clear;
