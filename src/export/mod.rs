@@ -11,6 +11,7 @@
 
 mod glb;
 mod group;
+mod history;
 mod look;
 mod obj;
 mod picture;
@@ -24,6 +25,7 @@ use crate::reconstruct::TriMesh;
 use crate::tone::Exposure;
 
 pub use glb::load_solved;
+pub use history::{check_history, save_history};
 use look::Look;
 
 /// What a file says about the light in it, beside the light.
