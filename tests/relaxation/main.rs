@@ -1,5 +1,10 @@
 //! Relaxations of M B = E: all reach what LU factors say, and each in its own way.
 
+#[path = "../common/mod.rs"]
+mod common;
+mod scene;
+mod shelf;
+
 use proptest::prelude::*;
 use radiosity::colour::Rgb;
 use radiosity::form_factor::FormFactors;
