@@ -1,13 +1,12 @@
 //! The truth for small systems: LU factors with partial pivoting.
 
-use faer::Mat;
-use faer::linalg::solvers::{PartialPivLu, Solve};
+use nalgebra::DMatrix;
 
 use super::System;
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
 
-/// Most patches: the matrix and its factors take 24 n² bytes, and time grows with n³.
+/// Most patches: the factors take 8 n² bytes, and time grows with n³.
 const MOST_PATCHES: usize = 5000;
 
 impl System {
@@ -18,22 +17,23 @@ impl System {
     pub fn solve_directly(&self) -> Result<Vec<Rgb>> {
         let n = self.len();
         if n > MOST_PATCHES {
-            let gigabytes = 24e-9 * (n as f64).powi(2);
+            let gigabytes = 8e-9 * (n as f64).powi(2);
             return Err(Error::Scene(format!(
                 "{n} patches: their LU factors would take {gigabytes:.1} GB; \
                  use a relaxation, or at most {MOST_PATCHES} patches"
             )));
         }
         let mut radiosity = vec![Rgb::ZERO; n];
-        let mut open = vec![0, 1, 2];
+        let mut open = if n > 0 { vec![0, 1, 2] } else { Vec::new() };
         while let Some(&first) = open.first() {
             let is_alike = |&channel: &usize| self.reflect_alike(first, channel);
             let (alike, others) = open.into_iter().partition::<Vec<usize>, _>(is_alike);
-            let right = Mat::from_fn(n, alike.len(), |i, k| self.exitance[i][alike[k]]);
-            let solved = PartialPivLu::new(self.matrix(first).as_ref()).solve(&right);
+            let mut columns = DMatrix::from_fn(n, alike.len(), |i, k| self.exitance[i][alike[k]]);
+            let solved = self.matrix(first).lu().solve_mut(&mut columns);
+            assert!(solved, "M of channel {first} is dominated by its diagonal, and so regular");
             for (k, &channel) in alike.iter().enumerate() {
                 for (i, radiosity) in radiosity.iter_mut().enumerate() {
-                    radiosity[channel] = solved[(i, k)];
+                    radiosity[channel] = columns[(i, k)];
                 }
             }
             open = others;
@@ -47,8 +47,8 @@ impl System {
     }
 
     /// M of one channel.
-    fn matrix(&self, channel: usize) -> Mat<f64> {
-        let mut matrix = Mat::identity(self.len(), self.len());
+    fn matrix(&self, channel: usize) -> DMatrix<f64> {
+        let mut matrix = DMatrix::identity(self.len(), self.len());
         for i in 0..self.len() {
             for (j, factor) in self.factors.row(i) {
                 matrix[(i, j)] -= self.reflectance[i][channel] * factor;
