@@ -7,7 +7,7 @@
 //! [Gortler, Cohen and Slusallek 1994].
 //!
 //! The same loop works on an assembled matrix, [`System`], and on the hierarchical exchange of
-//! [`crate::solve`], whose rows are made when they are needed.
+//! [`solve`](super::solve), whose rows are made when they are needed.
 //!
 //! [Cohen, Chen, Wallace and Greenberg 1988]: https://doi.org/10.1145/54852.378487
 //! [Gortler, Cohen and Slusallek 1994]: https://doi.org/10.1109/38.329094
