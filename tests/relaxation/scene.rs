@@ -1,9 +1,11 @@
 //! Relaxations of a whole scene: the light is the same, whichever patch is next.
 
+use std::ops::ControlFlow;
+
 use glam::DVec3;
 use radiosity::colour::Rgb;
 use radiosity::settings::Method;
-use radiosity::solver::Stop;
+use radiosity::solver::{Phase, Stop};
 use radiosity::{Scene, Settings, Solution, surfaces_of};
 
 use crate::METHODS;
@@ -22,7 +24,7 @@ fn solved(scene: &Scene, settings: &Settings) -> Solution {
 fn all_solvers_leave_the_same_light() {
     let scene = furnished();
     // A uniform mesh is the same whatever the light, so that elements can be compared.
-    let base = Settings { stop: 1e-5, uniform: Some(0.5), ..coarse() };
+    let base = Settings { stop: 1e-5, uniform: Some(0.8), ..coarse() };
     let truth = solved(&scene, &base);
     let mean = truth.light.indirect.iter().sum::<Rgb>() / truth.light.indirect.len() as f64;
     let emitted = truth.energy.emitted.element_sum();
@@ -78,9 +80,8 @@ fn the_shot_limit_holds_within_a_sweep() {
 #[test]
 fn over_relaxation_that_never_settles_is_refused() {
     let settings = Settings { solver: Method::Jacobi, omega: 1.95, ..coarse() };
-    let refused = radiosity::solve(&surfaces_of(&furnished()), &settings, |_| {
-        std::ops::ControlFlow::Continue(())
-    });
+    let refused =
+        radiosity::solve(&surfaces_of(&furnished()), &settings, |_| ControlFlow::Continue(()));
     let message = refused.map(|_| ()).unwrap_err().to_string();
     assert!(message.contains("omega") && message.contains("jacobi"), "{message}");
 }
@@ -91,7 +92,24 @@ fn surfaces_that_reflect_everything_are_refused() {
     let bright = stage.material(1.2, 0.0);
     stage.block(bright, Block::spanning(DVec3::splat(0.2), DVec3::splat(0.4)));
     let surfaces = surfaces_of(&stage.scene);
-    let refused = radiosity::solve(&surfaces, &coarse(), |_| std::ops::ControlFlow::Continue(()));
+    let refused = radiosity::solve(&surfaces, &coarse(), |_| ControlFlow::Continue(()));
     let message = refused.map(|_| ()).unwrap_err().to_string();
     assert!(message.contains("reflectance 1.2") && message.contains("less than 1"), "{message}");
+}
+
+#[test]
+fn a_break_in_the_middle_of_a_sweep_loses_no_light() {
+    let surfaces = surfaces_of(&furnished());
+    for method in METHODS {
+        let settings = Settings { solver: method, ..coarse() };
+        let mut shots = 0;
+        let solution = radiosity::solve(&surfaces, &settings, |progress| {
+            shots += usize::from(progress.phase == Phase::Shooting);
+            if shots > 30 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let solution = solution.unwrap();
+        assert_eq!(solution.stop, Stop::Cancelled, "{method:?}");
+        assert_eq!(solution.history[0].len(), 31, "{method:?}");
+        assert!(solution.energy.imbalance().abs() < 5e-3, "{method:?}");
+    }
 }
