@@ -1,7 +1,10 @@
 //! Form factors: the share of the light leaving one place that arrives at another.
 
+mod assembly;
 pub mod contour;
 pub mod hemicube;
 mod matrix;
+pub mod pair;
 
+pub use assembly::{Method, assemble};
 pub use matrix::FormFactors;

@@ -15,6 +15,22 @@ pub struct HalfSpace {
     pub offset: f64,
 }
 
+/// A convex polygon and the half space that its front faces.
+#[derive(Clone, Copy, Debug)]
+pub struct Facet<'a> {
+    /// Its corners, counter-clockwise seen from the front.
+    pub corners: &'a [DVec3],
+    /// In front of it.
+    pub plane: HalfSpace,
+}
+
+impl<'a> Facet<'a> {
+    /// The polygon with these corners and unit `normal`.
+    pub fn new(corners: &'a [DVec3], normal: DVec3) -> Self {
+        Self { corners, plane: HalfSpace::new(corners[0], normal) }
+    }
+}
+
 impl HalfSpace {
     /// The half space with unit `normal` and `point` on its border.
     pub fn new(point: DVec3, normal: DVec3) -> Self {

@@ -1,5 +1,6 @@
 //! What stands between two places: segment and shaft queries on a bounding volume hierarchy.
 
+mod between;
 mod clip;
 mod shaft;
 
@@ -16,7 +17,8 @@ use smallvec::SmallVec;
 use crate::surface::Surfaces;
 use crate::surface::cut::{Cuts, convex_pieces};
 
-pub use clip::{HalfSpace, Polygon};
+pub use between::Between;
+pub use clip::{Facet, HalfSpace, Polygon};
 pub use shaft::Pieces;
 
 /// All that blocks light: convex pieces of the surfaces, from both sides.
@@ -56,12 +58,31 @@ impl std::fmt::Debug for Occluders {
 impl Occluders {
     /// The occluders of a scene.
     pub fn new(surfaces: &Surfaces) -> Self {
-        let polygons: Vec<Occluder> = polygons(surfaces).collect();
+        Self::of(polygons(surfaces).collect(), surfaces.extent, surfaces.tolerance)
+    }
+
+    /// Convex planar polygons as occluders; distances up to `tolerance`, m, count as zero.
+    ///
+    /// Polygons without area are left out.
+    pub fn from_polygons(polygons: &[&[DVec3]], tolerance: f64) -> Self {
+        let normal = |p: &[DVec3]| (p[1] - p[0]).cross(p[2] - p[0]).try_normalize();
+        let occluder = |p: &&[DVec3]| {
+            let plane = HalfSpace::new(p[0], normal(p)?);
+            Some(Occluder { corners: (*p).into(), plane })
+        };
+        let corners = || polygons.iter().flat_map(|p| p.iter().copied());
+        let low = corners().fold(DVec3::INFINITY, DVec3::min);
+        let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let extent = if low.is_finite() { low.distance(high) } else { 0.0 };
+        Self::of(polygons.iter().filter_map(occluder).collect(), extent, tolerance)
+    }
+
+    fn of(polygons: Vec<Occluder>, extent: f64, tolerance: f64) -> Self {
         let corners = || polygons.iter().flat_map(|p| p.corners.iter().copied());
         let low = corners().fold(DVec3::INFINITY, DVec3::min);
         let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
         let centre = if low.is_finite() { low.midpoint(high) } else { DVec3::ZERO };
-        let margin = Vec3A::splat((surfaces.tolerance * 5.0) as f32);
+        let margin = Vec3A::splat((tolerance * 5.0) as f32);
         let boxes: Vec<Bounds> = polygons
             .iter()
             .map(|polygon| {
@@ -74,13 +95,7 @@ impl Occluders {
         let bvh =
             build_bvh2(&boxes, BvhBuildParams::very_slow_build(), &mut Duration::ZERO.clone());
         let ordered = bvh.primitive_indices.iter().map(|&k| polygons[k as usize].clone()).collect();
-        Self {
-            polygons: ordered,
-            bvh,
-            centre,
-            extent: surfaces.extent,
-            tolerance: surfaces.tolerance,
-        }
+        Self { polygons: ordered, bvh, centre, extent, tolerance }
     }
 
     /// A distance from within the scene to beyond all of it, m.
@@ -106,7 +121,7 @@ impl Occluders {
     fn for_each(
         &self,
         mut enter: impl FnMut(DVec3, DVec3) -> bool,
-        mut visit: impl FnMut(&Occluder) -> bool,
+        mut visit: impl FnMut(u32, &Occluder) -> bool,
     ) {
         let mut stack: SmallVec<[u32; 64]> = SmallVec::new();
         if !self.polygons.is_empty() {
@@ -122,9 +137,8 @@ impl Occluders {
                 stack.extend([node.first_index + 1, node.first_index]);
                 continue;
             }
-            let first = node.first_index as usize;
-            for occluder in &self.polygons[first..first + node.prim_count as usize] {
-                if !visit(occluder) {
+            for index in node.first_index..node.first_index + node.prim_count {
+                if !visit(index, &self.polygons[index as usize]) {
                     return;
                 }
             }

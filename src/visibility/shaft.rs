@@ -73,9 +73,9 @@ impl Occluders {
         pieces.push(source.into());
         self.for_each(
             |low, high| shaft.meets_box(low, high, self.tolerance),
-            |occluder| {
+            |_, occluder| {
                 if shaft.meets(&occluder.corners, self.tolerance) {
-                    self.subtract(&mut pieces, eye, occluder, plane);
+                    subtract(&mut pieces, (eye, plane), occluder, self.tolerance);
                 }
                 !pieces.is_empty() && pieces.len() <= CROWDED
             },
@@ -89,7 +89,7 @@ impl Occluders {
         let mut found = false;
         self.for_each(
             |low, high| shaft.meets_box(low, high, self.tolerance),
-            |occluder| {
+            |_, occluder| {
                 let height = occluder.plane.depth(eye);
                 found |= height.abs() > 2.0 * self.tolerance
                     && shaft.meets(&occluder.corners, self.tolerance);
@@ -98,36 +98,43 @@ impl Occluders {
         );
         found
     }
+}
 
-    /// Takes the shadow of an occluder out of the pieces of a source.
-    fn subtract(&self, pieces: &mut Pieces, eye: DVec3, occluder: &Occluder, source: HalfSpace) {
-        let height = occluder.plane.depth(eye);
-        if height.abs() <= 2.0 * self.tolerance {
-            return;
-        }
-        // What lies behind the source's plane hides nothing.
-        let crosses = occluder.corners.iter().any(|&corner| source.depth(corner) < 0.0);
-        let front = if crosses { source.clip(&occluder.corners) } else { occluder.corners.clone() };
-        if front.is_empty() {
-            return;
-        }
-        let shadow: SmallVec<[HalfSpace; 8]> = cone(eye, &front, height).collect();
-        let mut visible = Pieces::new();
-        for piece in pieces.drain(..) {
-            subtract_cone(piece, &shadow, self.tolerance * 1e-3, &mut visible);
-        }
-        *pieces = visible;
+/// Takes the shadow that an occluder throws from an eye out of the pieces of a source in front of which
+/// the eye is.
+pub(super) fn subtract(
+    pieces: &mut Pieces,
+    (eye, source): (DVec3, HalfSpace),
+    occluder: &Occluder,
+    tolerance: f64,
+) {
+    let height = occluder.plane.depth(eye);
+    if height.abs() <= 2.0 * tolerance {
+        return;
     }
+    // What lies behind the source's plane hides nothing.
+    let crosses = occluder.corners.iter().any(|&corner| source.depth(corner) < 0.0);
+    let clipped = if crosses { source.clip(&occluder.corners) } else { Polygon::new() };
+    let front = if crosses { &clipped } else { &occluder.corners };
+    if front.is_empty() {
+        return;
+    }
+    let shadow: SmallVec<[HalfSpace; 8]> = cone(eye, front, height).collect();
+    let tolerance = tolerance * 1e-3;
+    let mut cut = Pieces::new();
+    pieces.retain(|piece| {
+        let is_clear = shadow.iter().any(|side| piece.iter().all(|&p| side.depth(p) <= tolerance));
+        if !is_clear {
+            subtract_cone(piece, &shadow, tolerance, &mut cut);
+        }
+        is_clear
+    });
+    pieces.append(&mut cut);
 }
 
 /// Adds to `visible` what of a piece is outside of at least one of the half spaces.
-fn subtract_cone(piece: Polygon, cone: &[HalfSpace], tolerance: f64, visible: &mut Pieces) {
-    let misses = |side: &HalfSpace| piece.iter().all(|&p| side.depth(p) <= tolerance);
-    if cone.iter().any(misses) {
-        visible.push(piece);
-        return;
-    }
-    let mut rest = piece;
+fn subtract_cone(piece: &Polygon, cone: &[HalfSpace], tolerance: f64, visible: &mut Pieces) {
+    let mut rest = piece.clone();
     for side in cone {
         if rest.iter().any(|&p| side.depth(p) < -tolerance) {
             let outside = side.complement().clip(&rest);

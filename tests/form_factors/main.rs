@@ -1,5 +1,7 @@
 //! Laws of form factors and visibility, each against an independent measure.
 
+mod cases;
+#[path = "../common/mod.rs"]
 mod common;
 
 use std::f64::consts::PI;

@@ -1,0 +1,153 @@
+//! What stands between two polygons.
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
+use super::shaft::{Pieces, subtract};
+use super::{Facet, HalfSpace, Occluder, Occluders, Polygon};
+
+/// Corners nearer to each other than this share of the tolerance are one.
+const ROUNDING: f64 = 1e-3;
+
+/// The parts of occluders that lie in the convex hull of two polygons, in front of both.
+#[derive(Debug)]
+pub struct Between {
+    parts: Vec<Occluder>,
+    tolerance: f64,
+    /// True if one of them hides each polygon from the other.
+    hides_all: bool,
+}
+
+impl Occluders {
+    /// What stands between two polygons that face each other.
+    pub fn between(&self, a: Facet<'_>, b: Facet<'_>) -> Between {
+        let corners = || a.corners.iter().chain(b.corners).copied();
+        let low = corners().fold(DVec3::INFINITY, DVec3::min);
+        let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let tolerance = self.tolerance;
+        let mut near: SmallVec<[u32; 16]> = SmallVec::new();
+        self.for_each(
+            |box_low, box_high| {
+                let reaches = |plane: &HalfSpace| {
+                    let furthest =
+                        DVec3::select(plane.normal.cmpge(DVec3::ZERO), box_high, box_low);
+                    plane.depth(furthest) > tolerance
+                };
+                low.cmplt(box_high).all()
+                    && high.cmpgt(box_low).all()
+                    && reaches(&a.plane)
+                    && reaches(&b.plane)
+            },
+            |index, occluder| {
+                let reaches = |plane: &HalfSpace| {
+                    occluder.corners.iter().any(|&p| plane.depth(p) > tolerance)
+                };
+                if reaches(&a.plane) && reaches(&b.plane) {
+                    near.push(index);
+                }
+                true
+            },
+        );
+        if near.is_empty() {
+            return Between { parts: Vec::new(), tolerance, hides_all: false };
+        }
+        let near = near.iter().map(|&index| &self.polygons[index as usize]);
+        let hides_all = near.clone().any(|occluder| hides(occluder, a, b, tolerance));
+        let hull = hull(a, b, tolerance);
+        Between {
+            parts: near.filter_map(|o| inside(o, &hull, tolerance)).collect(),
+            tolerance,
+            hides_all,
+        }
+    }
+}
+
+impl Between {
+    /// True if nothing stands between the polygons.
+    pub fn is_empty(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    /// True if one occluder hides all of each polygon from all of the other; false does not mean
+    /// that something is seen.
+    pub fn hides_all(&self) -> bool {
+        self.hides_all
+    }
+
+    /// Distance, m, from a point to the nearest corner of what stands between.
+    pub fn distance(&self, point: DVec3) -> f64 {
+        let corners = self.parts.iter().flat_map(|part| &part.corners);
+        corners.map(|corner| corner.distance(point)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The pieces of `source`, one of the two polygons, that `eye`, on the other one, sees.
+    ///
+    /// The eye must be in front of the source's plane.
+    pub fn visible_part(&self, eye: DVec3, source: Facet<'_>) -> Pieces {
+        let mut pieces = Pieces::new();
+        pieces.push(source.corners.into());
+        for part in &self.parts {
+            subtract(&mut pieces, (eye, source.plane), part, self.tolerance);
+            if pieces.is_empty() {
+                break;
+            }
+        }
+        pieces
+    }
+}
+
+/// The part of an occluder inside of all half spaces, if there is one.
+fn inside(occluder: &Occluder, hull: &[HalfSpace], tolerance: f64) -> Option<Occluder> {
+    let mut corners: Polygon = occluder.corners.clone();
+    for side in hull {
+        if corners.iter().all(|&p| side.depth(p) <= tolerance) {
+            return None;
+        }
+        if corners.iter().any(|&p| side.depth(p) < 0.0) {
+            corners = side.clip(&corners);
+        }
+    }
+    // Edges no longer than rounding have no direction.
+    let previous = |k: usize| corners[(k + corners.len() - 1) % corners.len()];
+    let distinct = |&k: &usize| corners[k].distance(previous(k)) > ROUNDING * tolerance;
+    let corners: Polygon = (0..corners.len()).filter(distinct).map(|k| corners[k]).collect();
+    (corners.len() >= 3).then_some(Occluder { corners, plane: occluder.plane })
+}
+
+/// The half spaces whose intersection is the convex hull of two polygons.
+fn hull(a: Facet<'_>, b: Facet<'_>, tolerance: f64) -> SmallVec<[HalfSpace; 16]> {
+    let mut sides: SmallVec<[HalfSpace; 16]> = SmallVec::new();
+    sides.extend([a.plane, b.plane]);
+    sides.extend(supports(a.corners, b.corners, tolerance));
+    sides.extend(supports(b.corners, a.corners, tolerance));
+    sides
+}
+
+/// The half spaces that hold both polygons and have an edge of the first and a corner of the second
+/// on their border.
+fn supports<'a>(
+    edges: &'a [DVec3],
+    corners: &'a [DVec3],
+    tolerance: f64,
+) -> impl Iterator<Item = HalfSpace> + 'a {
+    let through = move |k: usize, corner: DVec3| {
+        let (from, to) = (edges[k], edges[(k + 1) % edges.len()]);
+        let plane = HalfSpace::new(from, (to - from).cross(corner - from).try_normalize()?);
+        let (mut low, mut high) = (0.0_f64, 0.0_f64);
+        for &p in edges.iter().chain(corners) {
+            low = low.min(plane.depth(p));
+            high = high.max(plane.depth(p));
+        }
+        if low >= -tolerance {
+            Some(plane)
+        } else {
+            (high <= tolerance).then(|| plane.complement())
+        }
+    };
+    (0..edges.len()).flat_map(move |k| corners.iter().filter_map(move |&corner| through(k, corner)))
+}
+
+/// True if an occluder crosses all segments between corners, and so, being convex, all segments.
+fn hides(occluder: &Occluder, a: Facet<'_>, b: Facet<'_>, tolerance: f64) -> bool {
+    a.corners.iter().all(|&p| b.corners.iter().all(|&q| occluder.crosses(p, q, tolerance)))
+}
