@@ -87,4 +87,4 @@ pub use reconstruct::{TriMesh, reconstruct};
 pub use scene::{Scene, load};
 pub use settings::{Length, Settings};
 pub use solver::{Solution, solve};
-pub use surface::{Surfaces, surfaces_of};
+pub use surface::{Surfaces, faces_of, surfaces_of};

@@ -9,6 +9,7 @@
 //! Colours are exposed and tone-mapped ([`crate::tone`]). On textured parts of a GLB or OBJ they
 //! are the light that the picture is multiplied by; a PLY has no pictures and shows their mean.
 
+mod factors;
 mod glb;
 mod group;
 mod history;
@@ -24,6 +25,7 @@ use crate::file;
 use crate::reconstruct::TriMesh;
 use crate::tone::Exposure;
 
+pub use factors::{FactorPatch, FactorTable, check_writable_factors, save_factors};
 pub use glb::load_solved;
 pub use history::{check_history, save_history};
 use look::Look;

@@ -5,6 +5,7 @@ pub mod contour;
 pub mod hemicube;
 mod matrix;
 pub mod pair;
+pub mod rays;
 
 pub use assembly::{Method, assemble};
 pub use matrix::FormFactors;

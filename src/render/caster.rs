@@ -1,19 +1,15 @@
 //! Finds the first triangle along a ray, without gaps between neighbours.
 
-use std::time::Duration;
-
 use glam::{DVec3, Vec3A};
-use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
 use obvhs::ray::Ray;
 
 use crate::reconstruct::TriMesh;
+use crate::visibility::hierarchy::hierarchy;
 
 /// Growth of the boxes around triangles, as a share of the mesh's size: far above the rounding of
-/// f32, far below a pixel. Each box grows by its own amount, up to twice this, because the builder
-/// makes lists instead of trees out of the equal boxes of regular meshes.
+/// f32, far below a pixel.
 const PADDING: f64 = 1e-5;
 
 /// How far outside a triangle, in barycentric coordinates, a ray still hits it: above the rounding
@@ -63,14 +59,9 @@ impl Caster {
         let corners = |triangle: usize| {
             mesh.triangles[triangle].map(|c| (mesh.positions[c as usize] - centre) / size)
         };
-        let count = mesh.triangles.len();
-        if count == 0 {
-            return Self { tree: Bvh2::default(), triangles: Vec::new(), centre, size };
-        }
-        let boxes: Vec<Aabb> = (0..count).map(|index| padded_box(corners(index), index)).collect();
-        let mut tree = build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Duration::default());
-        // Reinsertion may deepen the tree, and a stack too small loses hits.
-        tree.max_depth = tree.max_depth.max(tree.depth(0) + 1);
+        let boxes: Vec<Aabb> =
+            (0..mesh.triangles.len()).map(|index| padded_box(corners(index))).collect();
+        let tree = hierarchy(&boxes);
         let triangles = tree
             .primitive_indices
             .iter()
@@ -139,12 +130,8 @@ pub(super) fn bounds(mesh: &TriMesh) -> (DVec3, DVec3) {
     corners.fold((first, first), |(low, high), p| (low.min(p), high.max(p)))
 }
 
-fn padded_box(corners: [DVec3; 3], index: usize) -> Aabb {
-    let [a, b, c] = corners;
-    // The golden ratio's multiples spread evenly, whatever the order of the triangles.
-    let spread = (index as f64 * 0.618_033_988_749_894_8).fract();
-    let padding = DVec3::splat(PADDING * (1.0 + spread));
-    let low: Vec3A = (a.min(b).min(c) - padding).as_vec3a();
-    let high: Vec3A = (a.max(b).max(c) + padding).as_vec3a();
+fn padded_box([a, b, c]: [DVec3; 3]) -> Aabb {
+    let low: Vec3A = (a.min(b).min(c) - PADDING).as_vec3a();
+    let high: Vec3A = (a.max(b).max(c) + PADDING).as_vec3a();
     Aabb::new(low, high)
 }

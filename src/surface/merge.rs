@@ -49,6 +49,16 @@ pub(super) fn regions(scene: &Scene, tolerance: f64) -> Vec<Region> {
     regions
 }
 
+/// Every face of a scene as a region of its own.
+pub(super) fn single_faces(scene: &Scene) -> Vec<Region> {
+    let region = |(index, face): (usize, &Face)| {
+        let plane = plane_of(scene, face);
+        let uv = uv_map(scene, &plane, face);
+        Region { plane, faces: vec![index], rings: outline(scene, &plane, &[index]), uv }
+    };
+    scene.faces.iter().enumerate().map(region).collect()
+}
+
 /// Faces by their directed edges.
 struct Neighbours(HashMap<[u32; 2], Vec<usize>>);
 

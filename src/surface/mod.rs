@@ -23,6 +23,8 @@ pub use weld::Weld;
 pub struct Surfaces {
     /// The surfaces, in the order in which the scene first names them.
     pub list: Vec<Surface>,
+    /// Names of the scene's objects.
+    pub objects: Vec<String>,
     /// Lights without a surface.
     pub lights: Vec<Light>,
     /// The scene's materials.
@@ -50,6 +52,8 @@ pub struct Surface {
     pub exitance: Rgb,
     /// Index into [`Surfaces::materials`].
     pub material: u32,
+    /// Index into [`Surfaces::objects`]: that of its first face.
+    pub object: u32,
     /// From plane coordinates to texture coordinates, where there is a texture.
     pub uv: Option<DAffine2>,
     /// Unit normals of the curved surface it approximates, one per corner of the outer ring; empty if flat.
@@ -67,10 +71,25 @@ const TOLERANCE: f64 = 2e-7;
 
 /// The surfaces of a scene and their contact lines.
 pub fn surfaces_of(scene: &Scene) -> Surfaces {
+    let tolerance = TOLERANCE * scene.extent();
+    with_contacts(of_regions(scene, merge::regions(scene, tolerance)))
+}
+
+/// The faces of a scene, each a surface of its own, and their contact lines.
+pub fn faces_of(scene: &Scene) -> Surfaces {
+    with_contacts(of_regions(scene, merge::single_faces(scene)))
+}
+
+fn with_contacts(mut surfaces: Surfaces) -> Surfaces {
+    contact::find_contacts(&mut surfaces.list, surfaces.tolerance);
+    surfaces
+}
+
+fn of_regions(scene: &Scene, regions: Vec<merge::Region>) -> Surfaces {
     let extent = scene.extent();
     let tolerance = TOLERANCE * extent;
     let mut list = Vec::new();
-    for region in merge::regions(scene, tolerance) {
+    for region in regions {
         if region.rings.is_empty() {
             continue;
         }
@@ -79,9 +98,9 @@ pub fn surfaces_of(scene: &Scene) -> Surfaces {
         list.push(front);
         list.extend(back);
     }
-    contact::find_contacts(&mut list, tolerance);
     Surfaces {
         list,
+        objects: scene.objects.clone(),
         lights: scene.lights.clone(),
         materials: scene.materials.clone(),
         textures: scene.textures.clone(),
@@ -108,6 +127,7 @@ impl Surface {
             reflectance: material.reflectance * face.tint,
             exitance: material.emission * std::f64::consts::PI,
             material: face.material,
+            object: face.object,
             uv: region.uv,
             normals: face.normals.iter().map(|n| n.as_dvec3()).collect(),
             two_sided: material.double_sided,

@@ -54,11 +54,13 @@ impl Occluders {
         let near = near.iter().map(|&index| &self.polygons[index as usize]);
         let hides_all = near.clone().any(|occluder| hides(occluder, a, b, tolerance));
         let hull = hull(a, b, tolerance);
-        Between {
-            parts: near.filter_map(|o| inside(o, &hull, tolerance)).collect(),
-            tolerance,
-            hides_all,
-        }
+        let along = (b.corners[0] - a.corners[0]).normalize_or_zero();
+        let parts = near.filter_map(|occluder| inside(occluder, &hull, tolerance));
+        // What hides most comes first: it leaves the others little to cut.
+        let mut parts: Vec<(f64, Occluder)> =
+            parts.map(|part| (shade(&part, along), part)).collect();
+        parts.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        Between { parts: parts.into_iter().map(|(_, part)| part).collect(), tolerance, hides_all }
     }
 }
 
@@ -87,13 +89,20 @@ impl Between {
         let mut pieces = Pieces::new();
         pieces.push(source.corners.into());
         for part in &self.parts {
-            subtract(&mut pieces, (eye, source.plane), part, self.tolerance);
+            subtract(&mut pieces, (eye, source), part, self.tolerance);
             if pieces.is_empty() {
                 break;
             }
         }
         pieces
     }
+}
+
+/// Area of an occluder as seen along a direction, m².
+fn shade(occluder: &Occluder, along: DVec3) -> f64 {
+    let first = occluder.corners[0];
+    let fan = occluder.corners.windows(2).map(|edge| (edge[0] - first).cross(edge[1] - first));
+    fan.sum::<DVec3>().dot(along).abs() / 2.0
 }
 
 /// The part of an occluder inside of all half spaces, if there is one.

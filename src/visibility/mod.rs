@@ -2,16 +2,15 @@
 
 mod between;
 mod clip;
+pub mod hierarchy;
+pub mod packet;
+mod patches;
 mod shaft;
-
-use std::time::Duration;
 
 use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
 use obvhs::ray::Ray;
-use obvhs::{Boundable, BvhBuildParams};
 use smallvec::SmallVec;
 
 use crate::surface::Surfaces;
@@ -19,6 +18,8 @@ use crate::surface::cut::{Cuts, convex_pieces};
 
 pub use between::Between;
 pub use clip::{Facet, HalfSpace, Polygon};
+use hierarchy::hierarchy;
+pub use patches::PatchHierarchy;
 pub use shaft::Pieces;
 
 /// All that blocks light: convex pieces of the surfaces, from both sides.
@@ -38,15 +39,6 @@ pub struct Occluders {
 struct Occluder {
     corners: Polygon,
     plane: HalfSpace,
-}
-
-/// An occluder's box, grown so that rounding to 32 bits loses nothing.
-struct Bounds(Aabb);
-
-impl Boundable for Bounds {
-    fn aabb(&self) -> Aabb {
-        self.0
-    }
 }
 
 impl std::fmt::Debug for Occluders {
@@ -83,17 +75,16 @@ impl Occluders {
         let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
         let centre = if low.is_finite() { low.midpoint(high) } else { DVec3::ZERO };
         let margin = Vec3A::splat((tolerance * 5.0) as f32);
-        let boxes: Vec<Bounds> = polygons
+        // Grown so that rounding to 32 bits loses nothing.
+        let boxes: Vec<Aabb> = polygons
             .iter()
             .map(|polygon| {
                 let at = polygon.corners.iter().map(|&p| (p - centre).as_vec3a());
                 let tight = Aabb::from_points(&at.collect::<SmallVec<[Vec3A; 8]>>());
-                Bounds(Aabb::new(tight.min - margin, tight.max + margin))
+                Aabb::new(tight.min - margin, tight.max + margin)
             })
             .collect();
-        // Ties on regular meshes degrade the faster presets; this one repairs its tree.
-        let bvh =
-            build_bvh2(&boxes, BvhBuildParams::very_slow_build(), &mut Duration::ZERO.clone());
+        let bvh = hierarchy(&boxes);
         let ordered = bvh.primitive_indices.iter().map(|&k| polygons[k as usize].clone()).collect();
         Self { polygons: ordered, bvh, centre, extent, tolerance }
     }

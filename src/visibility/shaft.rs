@@ -3,7 +3,7 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::clip::{HalfSpace, Polygon};
+use super::clip::{Facet, HalfSpace, Polygon};
 use super::{Occluder, Occluders};
 
 /// The visible pieces of a polygon; they do not overlap.
@@ -67,20 +67,31 @@ impl Occluders {
     /// Exact for any number of convex occluders, but for those in one plane with the eye.
     /// `None` if so many stand in the way that cutting them out does not pay.
     pub fn visible_part(&self, eye: DVec3, source: &[DVec3], normal: DVec3) -> Option<Pieces> {
-        let plane = HalfSpace::new(source[0], normal);
-        let shaft = Shaft::new(eye, source, plane);
+        self.visible_pieces(eye, source, normal, CROWDED)
+    }
+
+    /// As [`Self::visible_part`], giving up at more than `most` pieces.
+    pub fn visible_pieces(
+        &self,
+        eye: DVec3,
+        source: &[DVec3],
+        normal: DVec3,
+        most: usize,
+    ) -> Option<Pieces> {
+        let facet = Facet::new(source, normal);
+        let shaft = Shaft::new(eye, source, facet.plane);
         let mut pieces = Pieces::new();
         pieces.push(source.into());
         self.for_each(
             |low, high| shaft.meets_box(low, high, self.tolerance),
             |_, occluder| {
                 if shaft.meets(&occluder.corners, self.tolerance) {
-                    subtract(&mut pieces, (eye, plane), occluder, self.tolerance);
+                    subtract(&mut pieces, (eye, facet), occluder, self.tolerance);
                 }
-                !pieces.is_empty() && pieces.len() <= CROWDED
+                !pieces.is_empty() && pieces.len() <= most
             },
         );
-        (pieces.len() <= CROWDED).then_some(pieces)
+        (pieces.len() <= most).then_some(pieces)
     }
 
     /// True if something may stand between `eye` and a part of `source`.
@@ -104,7 +115,7 @@ impl Occluders {
 /// the eye is.
 pub(super) fn subtract(
     pieces: &mut Pieces,
-    (eye, source): (DVec3, HalfSpace),
+    (eye, source): (DVec3, Facet<'_>),
     occluder: &Occluder,
     tolerance: f64,
 ) {
@@ -113,17 +124,23 @@ pub(super) fn subtract(
         return;
     }
     // What lies behind the source's plane hides nothing.
-    let crosses = occluder.corners.iter().any(|&corner| source.depth(corner) < 0.0);
-    let clipped = if crosses { source.clip(&occluder.corners) } else { Polygon::new() };
+    let crosses = occluder.corners.iter().any(|&corner| source.plane.depth(corner) < 0.0);
+    let clipped = if crosses { source.plane.clip(&occluder.corners) } else { Polygon::new() };
     let front = if crosses { &clipped } else { &occluder.corners };
     if front.is_empty() {
         return;
     }
     let shadow: SmallVec<[HalfSpace; 8]> = cone(eye, front, height).collect();
     let tolerance = tolerance * 1e-3;
+    let misses = |polygon: &[DVec3]| {
+        shadow.iter().any(|side| polygon.iter().all(|&p| side.depth(p) <= tolerance))
+    };
+    if misses(source.corners) {
+        return;
+    }
     let mut cut = Pieces::new();
     pieces.retain(|piece| {
-        let is_clear = shadow.iter().any(|side| piece.iter().all(|&p| side.depth(p) <= tolerance));
+        let is_clear = misses(piece);
         if !is_clear {
             subtract_cone(piece, &shadow, tolerance, &mut cut);
         }

@@ -29,19 +29,29 @@ impl<'a> Exchanges<'a> {
 
     /// Exchanges, m², of patch `i` with those after it.
     pub(super) fn row(&self, i: usize) -> Row {
+        let others = i + 1..self.patches.len();
+        let exchange = |j: usize| (j as u32, self.with(i, j, facet(&self.patches[j])));
+        others.map(exchange).filter(|&(_, exchange)| exchange > 0.0).collect()
+    }
+
+    /// Share of the light of patch `i` that meets the black backs of others.
+    pub(super) fn on_backs(&self, i: usize) -> f64 {
+        let others =
+            self.patches.iter().enumerate().filter(|(j, patch)| *j != i && !patch.two_sided);
+        let exchange = |(j, patch): (usize, &Patch)| {
+            let corners: Vec<DVec3> = patch.corners.iter().rev().copied().collect();
+            self.with(i, j, Facet::new(&corners, -patch.normal))
+        };
+        others.map(exchange).sum::<f64>() / self.patches[i].area
+    }
+
+    /// Exchange, m², of patch `i` with a side of patch `j`.
+    fn with(&self, i: usize, j: usize, side: Facet<'_>) -> f64 {
         let this = facet(&self.patches[i]);
-        let mut row = Row::new();
-        for j in i + 1..self.patches.len() {
-            let other = facet(&self.patches[j]);
-            if self.is_behind(i, other) || self.is_behind(j, this) {
-                continue;
-            }
-            let exchange = visible_exchange(self.occluders, this, other, TOLERANCE);
-            if exchange > 0.0 {
-                row.push((j as u32, exchange));
-            }
+        if self.is_behind(i, side) || self.is_behind(j, this) {
+            return 0.0;
         }
-        row
+        visible_exchange(self.occluders, this, side, TOLERANCE)
     }
 
     fn is_behind(&self, i: usize, facet: Facet<'_>) -> bool {

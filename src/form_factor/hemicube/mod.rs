@@ -6,12 +6,14 @@
 //! it kept: the cells only measure visibility, which takes most of the aliasing away.
 
 mod delta;
+mod packets;
 mod raster;
 
 use glam::{DMat3, DVec3};
 
+use super::contour::point_to_polygon;
 use crate::mesh::{Patch, PatchId};
-use crate::visibility::Occluders;
+use crate::visibility::{Occluders, PatchHierarchy};
 
 pub use delta::DeltaFactors;
 use raster::{Footprint, Raster, first_centre};
@@ -32,6 +34,8 @@ const NOTHING: u32 = u32::MAX;
 pub struct Hemicube<'a> {
     delta: &'a DeltaFactors,
     occluders: &'a Occluders,
+    /// Where patches outnumber cells, rays find what the cells see.
+    hierarchy: Option<&'a PatchHierarchy>,
     raster: Raster,
     eye: DVec3,
     frame: DMat3,
@@ -49,7 +53,8 @@ pub struct Hemicube<'a> {
 pub struct Sight {
     /// The patch.
     pub patch: PatchId,
-    /// Share of its projection that nothing hides, 0..=1.
+    /// Share of its projection that nothing hides, 0..=1; where rays fill the cells, what `delta` is
+    /// of its form factor, which for a patch smaller than a cell may be more than 1.
     pub visible: f64,
     /// Sum of the delta factors of the cells it kept.
     pub delta: f64,
@@ -64,6 +69,7 @@ impl<'a> Hemicube<'a> {
         Self {
             delta,
             occluders,
+            hierarchy: None,
             raster: Raster::new(delta.resolution()),
             eye: DVec3::ZERO,
             frame: DMat3::IDENTITY,
@@ -72,6 +78,14 @@ impl<'a> Hemicube<'a> {
             sums: Vec::new(),
             drawn: Vec::new(),
         }
+    }
+
+    /// The same hemicube, to look by rays where patches outnumber cells. Most of them then cover no
+    /// cell's centre, and those that do stand for the others: their form factors are the plain sums
+    /// of delta factors.
+    #[must_use]
+    pub fn with_rays(self, hierarchy: &'a PatchHierarchy) -> Self {
+        Self { hierarchy: Some(hierarchy), ..self }
     }
 
     /// Looks at `patches` from `eye` along the unit `normal`, turned about it by `turn` radians.
@@ -85,11 +99,14 @@ impl<'a> Hemicube<'a> {
     ) -> Vec<Sight> {
         self.eye = eye;
         self.frame = frame(normal, turn);
-        self.depth.fill(0.0);
-        self.item.fill(NOTHING);
         self.sums.clear();
         self.sums.resize(patches.len(), [0.0; 2]);
         self.drawn.clear();
+        if let Some(hierarchy) = self.hierarchy.filter(|_| patches.len() > self.item.len()) {
+            return self.look_by_rays(hierarchy, patches);
+        }
+        self.depth.fill(0.0);
+        self.item.fill(NOTHING);
         for (index, patch) in patches.iter().enumerate() {
             self.draw(index as u32, patch);
         }
@@ -99,6 +116,31 @@ impl<'a> Hemicube<'a> {
             }
         }
         self.drawn.iter().filter_map(|&index| self.sight(index, &patches[index as usize])).collect()
+    }
+
+    fn look_by_rays(&mut self, hierarchy: &PatchHierarchy, patches: &[Patch]) -> Vec<Sight> {
+        let cells = (&mut self.item[..], &mut self.depth[..]);
+        packets::fill(hierarchy, (self.eye, &self.frame), self.delta.resolution(), cells);
+        for (&item, &cell) in self.item.iter().zip(self.delta.cells()) {
+            if item == NOTHING {
+                continue;
+            }
+            let kept = &mut self.sums[item as usize][1];
+            if *kept == 0.0 {
+                self.drawn.push(item);
+            }
+            *kept += cell;
+        }
+        self.drawn.sort_unstable();
+        let sight = |&index: &u32| {
+            let patch = &patches[index as usize];
+            let delta = f64::from(self.sums[index as usize][1]);
+            let front = (self.eye - patch.corners[0]).dot(patch.normal) > 0.0;
+            let whole = point_to_polygon(self.eye, self.frame.row(2), &patch.corners);
+            let visible = if whole > 0.0 { delta / whole } else { 1.0 };
+            Sight { patch: PatchId(index), visible, delta, front }
+        };
+        self.drawn.iter().map(sight).collect()
     }
 
     /// Share, 0..=1, of a convex part of a patch that nothing hides.
@@ -209,7 +251,7 @@ impl Footprint<'_> {
 }
 
 /// Rotation into the axes of a hemicube: its rows are the hemicube's x, y and z.
-fn frame(normal: DVec3, turn: f64) -> DMat3 {
+pub(super) fn frame(normal: DVec3, turn: f64) -> DMat3 {
     let (sine, cosine) = turn.sin_cos();
     let (x, y) = normal.any_orthonormal_pair();
     DMat3::from_cols(x * cosine + y * sine, y * cosine - x * sine, normal).transpose()

@@ -52,14 +52,14 @@ impl Rule {
 }
 
 /// A convex polygon as a fan of quadrilaterals; a triangle is one with two corners in one place.
-pub(super) fn quadrilaterals(polygon: &[DVec3]) -> impl Iterator<Item = [DVec3; 4]> + '_ {
+pub(in crate::form_factor) fn quadrilaterals(polygon: &[DVec3]) -> impl Iterator<Item = [DVec3; 4]> + '_ {
     let last = polygon.len() - 1;
     let corner = move |k: usize| polygon[k.min(last)];
     (1..last).step_by(2).map(move |k| [polygon[0], corner(k), corner(k + 1), corner(k + 2)])
 }
 
 /// The place (s, t) of a quadrilateral, and its area per area of the unit square there, m².
-pub(super) fn at([a, b, c, d]: &[DVec3; 4], s: f64, t: f64) -> (DVec3, f64) {
+pub(in crate::form_factor) fn at([a, b, c, d]: &[DVec3; 4], s: f64, t: f64) -> (DVec3, f64) {
     let (near, far) = (a.lerp(*b, s), d.lerp(*c, s));
     let along_s = (b - a).lerp(c - d, t);
     (near.lerp(far, t), along_s.cross(far - near).length())

@@ -16,6 +16,7 @@ use crate::visibility::{Facet, Polygon};
 pub use occluded::visible_exchange;
 
 use cubature::Rule;
+pub(super) use cubature::{at as place_in, quadrilaterals};
 use edges::log_distance;
 
 /// Relative error of an exchange by contours, about.

@@ -8,7 +8,7 @@ use crate::form_factor::contour::point_to_polygon_above;
 use crate::visibility::{Between, Facet, Occluders};
 
 /// Most cells that a polygon is divided in.
-const MOST_CELLS: usize = 1000;
+const MOST_CELLS: usize = 100;
 
 /// Exchange A₁F₁₂, m², between what two convex polygons see of each other, to within about
 /// `tolerance` times the smaller of their areas.
@@ -35,8 +35,13 @@ pub fn visible_exchange(occluders: &Occluders, a: Facet<'_>, b: Facet<'_>, toler
     };
     // Where occluders are far away, shadows have wide borders.
     let (from, to) = if clearance(a) > clearance(b) { (a, b) } else { (b, a) };
-    let mut integral = Integral::new(View { from, to, between: &between });
-    integral.refine(tolerance * area(a).min(area(b)));
+    let view = View { from, to, between: &between };
+    let tolerance = tolerance * area(a).min(area(b));
+    if all <= tolerance {
+        return all * view.visible_share();
+    }
+    let mut integral = Integral::new(view);
+    integral.refine(tolerance);
     integral.visible(all)
 }
 
@@ -60,6 +65,13 @@ impl View<'_> {
         let visible =
             self.between.visible_part(eye, self.to).iter().map(|piece| factor(piece)).sum();
         [visible, (factor(self.to.corners) - visible).max(0.0)]
+    }
+
+    /// Share of the exchange that nothing hides, about.
+    fn visible_share(&self) -> f64 {
+        let cells = quadrilaterals(self.from.corners).map(|cell| self.over(&cell).1);
+        let [visible, hidden] = cells.fold([0.0; 2], |sum, cell| [0, 1].map(|k| sum[k] + cell[k]));
+        if visible > 0.0 { visible / (visible + hidden) } else { 0.0 }
     }
 
     /// The form factors at the four points of Gauss's rule for a cell, and its exchanges by it.

@@ -1,5 +1,7 @@
 //! The form factors between all patches, as a sparse matrix.
 
+mod laws;
+
 /// Form factors between n patches, row by row, without those that are zero.
 ///
 /// `F[i][j]`, 0..=1, is the share of the light leaving patch i that arrives at patch j.

@@ -1,0 +1,146 @@
+//! Fills the cells by rays instead of projection: cheaper where patches outnumber cells.
+//!
+//! Hemicubes a second on one thread of a busy machine, by projection without vectors and by rays, in
+//! a room with twelve blocks; the two differ in fewer than one of 1 000 cells:
+//!
+//! | patches | resolution | patches to a cell | projection | rays |
+//! |---|---|---|---|---|
+//! | 100 684 | 64 | 8 | 98 | 245 |
+//! | 100 684 | 128 | 2 | 95 | 94 |
+//! | 1 003 038 | 64 | 82 | 8.3 | 111 |
+//! | 1 003 038 | 128 | 20 | 8.4 | 36 |
+
+use glam::{DMat3, DVec3, Vec3};
+
+use crate::visibility::PatchHierarchy;
+use crate::visibility::packet::{Packet, RAYS};
+
+/// Cells of a packet: columns and rows of a small block.
+const BLOCK: [usize; 2] = [4, RAYS / 4];
+
+/// Axes of a face's columns, rows and depth in the hemicube's frame, the sign of the depth axis,
+/// and the lowest row's border.
+const FACES: [([usize; 3], f64, f64); 5] = [
+    ([0, 1, 2], 1.0, -1.0),
+    ([1, 2, 0], 1.0, 0.0),
+    ([1, 2, 0], -1.0, 0.0),
+    ([0, 2, 1], 1.0, 0.0),
+    ([0, 2, 1], -1.0, 0.0),
+];
+
+/// One face's cells as directions in space: at (column, row),
+/// `corner + by_column * column + by_row * row`, of depth one.
+struct Face {
+    corner: Vec3,
+    by_column: Vec3,
+    by_row: Vec3,
+    rows: usize,
+}
+
+/// Finds what each cell of a hemicube sees: patch, or `u32::MAX`, and reciprocal depth, or 0.
+///
+/// `frame` maps to the hemicube's axes; cells are in the order of [`super::DeltaFactors`].
+pub(super) fn fill(
+    hierarchy: &PatchHierarchy,
+    (eye, frame): (DVec3, &DMat3),
+    resolution: usize,
+    (item, depth): (&mut [u32], &mut [f32]),
+) {
+    let mut packets = Vec::new();
+    let mut first_row = 0;
+    for face in FACES {
+        let face = Face::new(face, frame, resolution);
+        for row in (0..face.rows).step_by(BLOCK[1]) {
+            packets.clear();
+            let columns = (0..resolution).step_by(BLOCK[0]);
+            packets.extend(columns.map(|column| face.packet(column, row)));
+            hierarchy.cast(eye, &mut packets);
+            for (block, packet) in packets.iter().enumerate() {
+                for ray in 0..RAYS {
+                    let (column, row) = cell(block * BLOCK[0], row, ray);
+                    if column < resolution && row < face.rows {
+                        let cell = (first_row + row) * resolution + column;
+                        item[cell] = packet.patch[ray];
+                        depth[cell] = packet.nearness[ray];
+                    }
+                }
+            }
+        }
+        first_row += face.rows;
+    }
+}
+
+/// Column and row of a packet's ray; at the borders it may be one beyond the face.
+fn cell(column: usize, row: usize, ray: usize) -> (usize, usize) {
+    (column + ray % BLOCK[0], row + ray / BLOCK[0])
+}
+
+impl Face {
+    fn new(([a, b, w], sign, lowest): ([usize; 3], f64, f64), frame: &DMat3, n: usize) -> Self {
+        let step = 2.0 / n as f64;
+        let (x, y, z) = (frame.row(a), frame.row(b), frame.row(w) * sign);
+        Self {
+            corner: (z + x * (0.5 * step - 1.0) + y * (0.5 * step + lowest)).as_vec3(),
+            by_column: (x * step).as_vec3(),
+            by_row: (y * step).as_vec3(),
+            rows: if lowest < 0.0 { n } else { n / 2 },
+        }
+    }
+
+    /// The rays of the block that begins at (column, row).
+    fn packet(&self, column: usize, row: usize) -> Packet {
+        let along = |axis: usize| {
+            std::array::from_fn(|ray| {
+                let (column, row) = cell(column, row, ray);
+                self.corner[axis]
+                    + self.by_column[axis] * column as f32
+                    + self.by_row[axis] * row as f32
+            })
+        };
+        Packet::new([along(0), along(1), along(2)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::form_factor::hemicube::{DeltaFactors, Hemicube};
+    use crate::mesh::Mesh;
+    use crate::scene::load;
+    use crate::settings::{Length, Settings};
+    use crate::surface::surfaces_of;
+    use crate::visibility::Occluders;
+
+    #[test]
+    fn rays_and_projection_fill_the_same_cells() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/cornell-box.obj");
+        let surfaces = surfaces_of(&load(&path, &Default::default()).expect("it comes with us"));
+        let patch_size = Length::OfScene(1.0 / 15.0);
+        let mesh = Mesh::new(&surfaces, &Settings { patch_size, ..Settings::draft() });
+        let (occluders, hierarchy) =
+            (Occluders::new(&surfaces), PatchHierarchy::new(&mesh.patches));
+        for resolution in [64, 66] {
+            let delta = DeltaFactors::new(resolution);
+            let mut hemicube = Hemicube::new(&delta, &occluders);
+            let cells = delta.cells().len();
+            let (mut item, mut depth, mut differing) = (vec![0; cells], vec![0.0; cells], 0);
+            for patch in mesh.patches.iter().step_by(17) {
+                let eye = patch.corners.iter().sum::<DVec3>() / patch.corners.len() as f64;
+                hemicube.look(&mesh.patches, (eye, patch.normal), 0.3);
+                let into = (&mut item[..], &mut depth[..]);
+                fill(&hierarchy, (eye, &hemicube.frame), resolution, into);
+                for cell in 0..cells {
+                    let near = hemicube.depth[cell];
+                    let same = item[cell] == hemicube.item[cell];
+                    let close = (depth[cell] - near).abs() <= 1e-4 * near;
+                    differing += usize::from(!same || !close);
+                }
+            }
+            let all = cells * mesh.patches.len().div_ceil(17);
+            assert!(differing * 1000 <= all, "{differing} of {all} cells differ");
+            assert!(all > 300_000, "too few cells to tell: {all}");
+        }
+    }
+}
