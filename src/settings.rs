@@ -29,8 +29,40 @@ pub struct Settings {
     pub stop: f64,
     /// Most shots to fire, emitters included; `None` goes on until `stop` is reached.
     pub max_shots: Option<usize>,
+    /// Which patch sends its reflected light on next (default [`Method::Progressive`]). All end with
+    /// the same light, some sooner.
+    pub solver: Method,
+    /// Factor on the light that a patch sends at a time (above 0, below 2; default 1): less is
+    /// under-, more over-relaxation.
+    pub omega: f64,
     /// Cells along the edge of a hemicube's top face (32..=1024, even; default 128).
     pub hemicube_resolution: u32,
+}
+
+/// The classic relaxations: who is next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// All in turn, each sending what it held when the turn began: simultaneous displacement.
+    Jacobi,
+    /// All in turn, each sending what it holds by then: successive displacement.
+    GaussSeidel,
+    /// The one that lacks most, W/m².
+    Southwell,
+    /// The one that lacks most power, W: progressive refinement, Southwell's method scaled by area.
+    #[default]
+    Progressive,
+}
+
+impl Method {
+    /// The name, as on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Jacobi => "jacobi",
+            Self::GaussSeidel => "gauss-seidel",
+            Self::Southwell => "southwell",
+            Self::Progressive => "progressive",
+        }
+    }
 }
 
 impl Settings {
@@ -54,6 +86,8 @@ impl Settings {
             uniform: None,
             stop: 0.001,
             max_shots: None,
+            solver: Method::Progressive,
+            omega: 1.0,
             hemicube_resolution: 128,
         }
     }
@@ -92,6 +126,7 @@ impl Settings {
         positive("patch-size", self.patch_size.number())?;
         positive("uniform", self.uniform.unwrap_or(1.0))?;
         in_range("stop", self.stop, 1e-9, 1.0)?;
+        check_omega(self.omega)?;
         let cells = self.hemicube_resolution;
         in_range("hemicube-resolution", f64::from(cells), 32.0, 1024.0)?;
         if cells % 2 == 1 {
@@ -124,6 +159,14 @@ fn in_range(name: &'static str, value: f64, low: f64, high: f64) -> Result<()> {
         return Ok(());
     }
     Err(setting(name, format!("{value} is out of range; use {low} to {high}")))
+}
+
+/// Whether a relaxation with this factor can converge at all.
+pub(crate) fn check_omega(omega: f64) -> Result<()> {
+    if omega > 0.0 && omega < 2.0 {
+        return Ok(());
+    }
+    Err(setting("omega", format!("{omega} is out of range; use more than 0 and less than 2")))
 }
 
 fn positive(name: &'static str, value: f64) -> Result<()> {
@@ -203,6 +246,8 @@ mod tests {
             ),
             ("uniform", Settings { uniform: Some(0.0), ..medium.clone() }),
             ("stop", Settings { stop: 0.0, ..medium.clone() }),
+            ("omega", Settings { omega: 2.0, ..medium.clone() }),
+            ("omega", Settings { omega: f64::NAN, ..medium.clone() }),
             ("hemicube-resolution", Settings { hemicube_resolution: 33, ..medium.clone() }),
         ];
         for (name, settings) in wrong {

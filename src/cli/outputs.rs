@@ -5,7 +5,12 @@ use std::path::{Path, PathBuf};
 use radiosity::{Error, Result, export, render};
 
 /// Whether all files could be written, and none of them is the one that is read.
-pub(crate) fn check(input: &Path, meshes: &[PathBuf], pictures: &[PathBuf]) -> Result<()> {
+pub(crate) fn check(
+    input: &Path,
+    meshes: &[PathBuf],
+    pictures: &[PathBuf],
+    history: Option<&Path>,
+) -> Result<()> {
     for path in meshes {
         refuse_input(input, path)?;
         export::check_writable(path)?;
@@ -13,6 +18,10 @@ pub(crate) fn check(input: &Path, meshes: &[PathBuf], pictures: &[PathBuf]) -> R
     for path in pictures {
         refuse_input(input, path)?;
         render::check_writable(path)?;
+    }
+    if let Some(path) = history {
+        refuse_input(input, path)?;
+        export::check_history(path)?;
     }
     Ok(())
 }

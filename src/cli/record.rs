@@ -18,6 +18,8 @@ pub(crate) struct SettingsRecord {
     uniform: Option<f64>,
     stop: f64,
     max_shots: Option<usize>,
+    solver: &'static str,
+    omega: f64,
     hemicube_resolution: u32,
 }
 
@@ -33,6 +35,8 @@ impl SettingsRecord {
             uniform: settings.uniform,
             stop: settings.stop,
             max_shots: settings.max_shots,
+            solver: settings.solver.name(),
+            omega: settings.omega,
             hemicube_resolution: settings.hemicube_resolution,
         }
     }
@@ -46,7 +50,8 @@ impl Display for SettingsRecord {
             Some(size) => write!(f, "uniform {size} m, ")?,
             None => write!(f, "elements from {min_element:.4} m, level {max_level}, ")?,
         }
-        write!(f, "patches up to {patch_size:.4} m, hemicubes of {}", self.hemicube_resolution)
+        write!(f, "patches up to {patch_size:.4} m, hemicubes of {}, ", self.hemicube_resolution)?;
+        write!(f, "{}, omega {}", self.solver, self.omega)
     }
 }
 

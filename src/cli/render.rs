@@ -41,7 +41,7 @@ Examples:
 
 impl Render {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        outputs::check(&self.path, &[], &self.output)?;
+        outputs::check(&self.path, &[], &self.output, None)?;
         self.report.use_threads()?;
         let mut meter = Meter::new(&self.report);
         meter.begin("reading");

@@ -38,6 +38,13 @@ pub(crate) struct Solve {
     #[arg(long, value_name = "FILE", help_heading = "Writing")]
     image: Vec<PathBuf>,
 
+    /// How the exchange of reflected light converged: residual and unshot share, patch by patch
+    ///
+    /// Columns: round (light is exchanged twice, the second time on the finer mesh), shots so far, the
+    /// patch that was next, the largest residual in W/m², and the unshot share of the emitted power.
+    #[arg(long, value_name = "FILE.csv", help_heading = "Writing")]
+    history: Option<PathBuf>,
+
     #[command(flatten)]
     accuracy: AccuracyOptions,
 
@@ -65,11 +72,11 @@ impl Solve {
     pub(crate) fn run(self) -> Result<(), Failure> {
         let settings = self.accuracy.settings();
         settings.validate()?;
-        outputs::check(&self.scene.path, &self.output, &self.image)?;
+        outputs::check(&self.scene.path, &self.output, &self.image, self.history.as_deref())?;
         self.report.use_threads()?;
         let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.report);
-        if self.output.is_empty() && self.image.is_empty() {
+        if self.written().next().is_none() {
             meter.tell("nothing will be written; -o FILE.glb and --image FILE.png do that");
         }
 
@@ -99,14 +106,22 @@ impl Solve {
             finished: solution.stop == Stop::Converged,
         };
         self.write(&mesh, &camera, &stamp, &mut meter)?;
+        if let Some(path) = &self.history {
+            export::save_history(&solution.history, path)?;
+        }
         self.report_on(&Outcome {
             scene: self.scene.path.clone(),
             summary: Summary::new(&surfaces, &solution, &mesh),
             settings: settings_record,
             seconds: meter.into_timings(),
-            written: self.output.iter().chain(&self.image).cloned().collect(),
+            written: self.written().cloned().collect(),
             notes: scene.notes,
         })
+    }
+
+    /// The files to write.
+    fn written(&self) -> impl Iterator<Item = &PathBuf> {
+        self.output.iter().chain(&self.image).chain(&self.history)
     }
 
     fn report_on(&self, outcome: &Outcome) -> Result<(), Failure> {

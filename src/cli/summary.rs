@@ -80,8 +80,10 @@ impl Summary {
             finished: solution.stop == Stop::Converged,
             stop: match solution.stop {
                 Stop::Converged => "converged",
+                Stop::Unchanged => "unchanged",
                 Stop::ShotLimit => "shot limit",
                 Stop::Cancelled => "interrupted",
+                Stop::Diverged => "diverged",
             },
             surfaces: surfaces.list.len(),
             patches: solution.mesh.patches.len(),

@@ -12,6 +12,7 @@
 mod factors;
 mod glb;
 mod group;
+mod history;
 mod look;
 mod obj;
 mod picture;
@@ -26,6 +27,7 @@ use crate::tone::Exposure;
 
 pub use factors::{FactorPatch, FactorTable, check_writable_factors, save_factors};
 pub use glb::load_solved;
+pub use history::{check_history, save_history};
 use look::Look;
 
 /// What a file says about the light in it, beside the light.

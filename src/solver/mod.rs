@@ -10,6 +10,7 @@ mod energy;
 mod gather;
 mod indirect_pass;
 mod progressive;
+pub mod relaxation;
 mod sources;
 mod transport;
 
@@ -30,6 +31,7 @@ pub use energy::Energy;
 use direct_pass::World;
 use gather::Gatherer;
 use progressive::Shooting;
+use relaxation::Step;
 use sources::Sources;
 
 /// A lit mesh, and how it came to be.
@@ -49,17 +51,25 @@ pub struct Solution {
     pub hemicubes: [usize; 2],
     /// Irradiance added for the light still unshot, W/m²; zero when converged.
     pub ambient: Rgb,
+    /// How each exchange of reflected light converged, patch by patch.
+    pub history: Vec<Vec<Step>>,
 }
 
 /// Why a solver stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// The unshot power fell below [`Settings::stop`].
+    /// The unshot power fell below [`Settings::stop`]; of a [`relaxation::System`], its residual
+    /// below what was asked for.
     Converged,
-    /// [`Settings::max_shots`] were fired.
+    /// A whole sweep over a [`relaxation::System`] has changed no radiosity by as much as was
+    /// asked for.
+    Unchanged,
+    /// [`Settings::max_shots`] were fired, or as many rows of a system relaxed.
     ShotLimit,
     /// The observer asked for it.
     Cancelled,
+    /// What is unshot grew a millionfold, or has not come to a new low in a hundred sweeps.
+    Diverged,
 }
 
 /// A step of the work, told to the observer.
@@ -112,7 +122,8 @@ const ROUNDS: usize = 2;
 /// finished quickly.
 ///
 /// # Errors
-/// When nothing emits light, or a setting is out of its range.
+/// When nothing emits light, a setting is out of its range, a surface reflects all of the light or
+/// more, or over-relaxation makes the light grow instead of settling it.
 pub fn solve(
     surfaces: &Surfaces,
     settings: &Settings,
@@ -122,6 +133,7 @@ pub fn solve(
     settings.validate_for(surfaces.area(), surfaces.extent)?;
     let mut observer = Observer { observe: &mut observe, flow: ControlFlow::Continue(()) };
     let mut mesh = Mesh::new(surfaces, settings);
+    check_reflectances(surfaces, &mesh)?;
     let occluders = Occluders::new(surfaces);
     let lamps = Lamps::new(surfaces, &mesh);
     if lamps.is_empty() {
@@ -131,16 +143,25 @@ pub fn solve(
 
     direct_pass::refine(world, settings, &mut mesh, &mut observer);
     direct_pass::light_leaves(world, &mut mesh);
-    let mut exchange = Exchange::new(world, settings, &mesh, &mut observer);
+    let mut exchange = Exchange::new(world, settings, &mesh, &mut observer)?;
     let gathered = if exchange.stop == Stop::Converged {
-        gather(world, settings, (&mut mesh, &mut exchange), &mut observer)
+        gather(world, settings, (&mut mesh, &mut exchange), &mut observer)?
     } else {
         exchange.spread(&mut mesh);
         0
     };
-    let Exchange { light, energy, stop, shots, hemicubes, ambient } = exchange;
+    let Exchange { light, energy, stop, shots, hemicubes, ambient, history } = exchange;
     let hemicubes = [hemicubes, gathered];
-    Ok(Solution { mesh, light, energy, stop, shots, hemicubes, ambient })
+    Ok(Solution { mesh, light, energy, stop, shots, hemicubes, ambient, history })
+}
+
+/// Whether light dies away: loading a file sees to it, a scene made in code may not.
+fn check_reflectances(surfaces: &Surfaces, mesh: &Mesh) -> Result<()> {
+    mesh.patches.iter().try_for_each(|patch| {
+        let material = surfaces.list[patch.surface as usize].material as usize;
+        let name = format_args!("material \"{}\"", surfaces.materials[material].name);
+        relaxation::check_reflectance(patch.reflectance, name)
+    })
 }
 
 /// Indirect light at vertices, the mesh refined to it. Returns how often light was gathered.
@@ -149,7 +170,7 @@ fn gather(
     settings: &Settings,
     (mesh, exchange): (&mut Mesh, &mut Exchange),
     observer: &mut Observer<'_>,
-) -> usize {
+) -> Result<usize> {
     let level = direct_pass::mean_radiosity(mesh);
     let fine = GATHER_SHARE * settings.tolerance * level;
     let oracle = Oracle::new(settings, world.surfaces.extent, level);
@@ -158,8 +179,10 @@ fn gather(
         indirect_pass::refine((settings, &oracle), &mut gatherer, mesh, observer);
         direct_pass::light_leaves(world, mesh);
         if round < ROUNDS && observer.flow.is_continue() {
-            let next = Exchange::new(world, settings, mesh, observer);
+            let mut next = Exchange::new(world, settings, mesh, observer)?;
+            exchange.history.append(&mut next.history);
             if next.stop == Stop::Converged {
+                next.history = std::mem::take(&mut exchange.history);
                 *exchange = next;
                 gatherer.replace_sources(mesh, exchange.sources(mesh));
             }
@@ -169,7 +192,7 @@ fn gather(
         exchange.stop = Stop::Cancelled;
     }
     indirect_pass::interpolate(mesh);
-    gatherer.gathered
+    Ok(gatherer.gathered)
 }
 
 /// Reflected light, exchanged between the patches of a mesh as it is.
@@ -180,6 +203,7 @@ struct Exchange {
     shots: usize,
     hemicubes: usize,
     ambient: Rgb,
+    history: Vec<Vec<Step>>,
 }
 
 impl Exchange {
@@ -188,14 +212,15 @@ impl Exchange {
         settings: &Settings,
         mesh: &Mesh,
         observer: &mut Observer<'_>,
-    ) -> Self {
+    ) -> Result<Self> {
         let mut light = ElementLight::direct(mesh);
         let mut shooting = Shooting::new(mesh, world, settings, &light);
-        let stop = shooting.run(settings, observer);
+        let (stop, history) = shooting.run(settings, observer)?;
         let ambient = if stop == Stop::Converged { Rgb::ZERO } else { shooting.ambient() };
         light.settle(mesh, &shooting.received);
         let Shooting { energy, shots, hemicubes, .. } = shooting;
-        Self { light, energy, stop, shots, hemicubes, ambient }
+        let history = vec![history];
+        Ok(Self { light, energy, stop, shots, hemicubes, ambient, history })
     }
 
     /// What a gathering vertex sees.

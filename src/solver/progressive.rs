@@ -1,6 +1,7 @@
-//! Progressive refinement: shoot from the patch with the most unshot power, until little is left.
+//! Exchange of reflected light by shooting: patch by patch, until little is left.
 //!
-//! Based on: [Cohen, Chen, Wallace and Greenberg 1988]. It is Southwell's relaxation of B = E + ρ F B.
+//! Based on: [Cohen, Chen, Wallace and Greenberg 1988]. It is a relaxation of B = E + ρ F B, by default
+//! Southwell's scaled by area: the patch with the most unshot power is next.
 //! Emitters come first; their light has been carried exactly before, so their shots only book it.
 //!
 //! [Cohen, Chen, Wallace and Greenberg 1988]: https://doi.org/10.1145/54852.378487
@@ -11,20 +12,25 @@ use rayon::prelude::*;
 
 use super::direct_pass::World;
 use super::energy::Energy;
+use super::relaxation::{Relaxation, Residuals, Step};
 use super::transport::{Row, row};
 use super::{ElementLight, Observer, Phase, Stop};
 use crate::colour::Rgb;
+use crate::error::{Error, Result};
 use crate::form_factor::hemicube::{DeltaFactors, Hemicube};
 use crate::mesh::{ElementId, Mesh, PatchId};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
 
-/// Rows computed at once, ahead of their shots. A number of its own, so that threads change nothing.
-const BATCH: usize = 48;
-
 /// Links kept for later shots; beyond them, rows are made anew.
 const KEPT_LINKS: usize = 8_000_000;
+
+/// Light received and not yet shot.
+struct Held {
+    unshot: Vec<Rgb>,
+    pending: Vec<Rgb>,
+}
 
 /// The state of a solution by shooting.
 pub(super) struct Shooting<'a> {
@@ -40,6 +46,8 @@ pub(super) struct Shooting<'a> {
     unshot: Vec<Rgb>,
     /// By element: the irradiance received at that level and not yet shot, W/m².
     pending: Vec<Rgb>,
+    /// What patches release, if that is not what they hold.
+    remembered: Option<Held>,
     /// By element: irradiance by reflected light received at that level, W/m².
     pub(super) received: Vec<Rgb>,
     pub(super) energy: Energy,
@@ -67,6 +75,7 @@ impl<'a> Shooting<'a> {
             trees: mesh.trees(),
             pending: leaves_only(mesh, &light.direct),
             unshot: mesh.patches.iter().map(|patch| patch.reflectance * direct(patch)).collect(),
+            remembered: None,
             received: vec![Rgb::ZERO; mesh.elements.len()],
             energy: Energy::default(),
             shots: 0,
@@ -90,7 +99,7 @@ impl<'a> Shooting<'a> {
             .filter(|(_, patch)| patch.exitance.max_element() > 0.0)
             .map(|(index, _)| PatchId(index as u32))
             .collect();
-        self.prepare(&emitters);
+        self.make_rows(&emitters);
         for &emitter in &emitters {
             let power = self.mesh[emitter].exitance * self.mesh[emitter].area;
             let row = self.rows[emitter.index()].take().unwrap_or_default();
@@ -106,62 +115,53 @@ impl<'a> Shooting<'a> {
         }
     }
 
-    /// Shoots until the unshot power is small, the shots are used up, or `observer` has seen enough.
-    pub(super) fn run(&mut self, settings: &Settings, observer: &mut Observer<'_>) -> Stop {
+    /// Lets patches shoot until the unshot power is small, the shots are used up, or `observer` has
+    /// seen enough.
+    pub(super) fn run(
+        &mut self,
+        settings: &Settings,
+        observer: &mut Observer<'_>,
+    ) -> Result<(Stop, Vec<Step>)> {
+        let relaxation = Relaxation::new(settings.solver, settings.omega)?;
+        let emitters = self.shots;
         let start = self.energy.unshot_share().max(f64::MIN_POSITIVE);
-        loop {
-            let left = self.energy.unshot_share();
-            if left <= settings.stop {
-                return Stop::Converged;
+        let (stop, history) = relaxation.run(self, |step| {
+            if step.unshot <= settings.stop {
+                return Some(Stop::Converged);
             }
-            if settings.max_shots.is_some_and(|most| self.shots >= most) {
-                return Stop::ShotLimit;
+            if settings.max_shots.is_some_and(|most| emitters + step.shots >= most) {
+                return Some(Stop::ShotLimit);
             }
-            let done = (left / start).ln() / (settings.stop / start).ln();
-            if observer.tell(Phase::Shooting, done).is_break() {
-                return Stop::Cancelled;
-            }
-            let shooter = self.brightest(1)[0];
-            if self.rows[shooter.index()].is_none() {
-                let ahead = self.brightest(BATCH);
-                self.prepare(&ahead);
-            }
-            self.shoot(shooter);
-        }
-    }
-
-    /// Sends the unshot light of a patch to all elements it sees.
-    fn shoot(&mut self, shooter: PatchId) {
-        let patch = &self.mesh[shooter];
-        let power = std::mem::take(&mut self.unshot[shooter.index()]) * patch.area;
-        let radiosity = self.take_pending(shooter);
-        let row = self.rows[shooter.index()].take().unwrap_or_default();
-        let scale = conserve(power * (1.0 - row.escaped - row.on_backs), &row, &radiosity);
-        for link in &row.links {
-            let receiver = self.mesh[link.receiver].patch;
-            let patch = &self.mesh[receiver];
-            let power = scale * radiosity[&link.source] * link.exchange;
-            let irradiance = power / self.mesh[link.receiver].area;
-            self.received[link.receiver.index()] += irradiance;
-            self.pending[link.receiver.index()] += irradiance;
-            self.unshot[receiver.index()] += patch.reflectance * power / patch.area;
-            self.energy.absorbed += (Rgb::ONE - patch.reflectance) * power;
-        }
-        self.energy.escaped += power * row.escaped;
-        self.energy.on_backs += power * row.on_backs;
+            let done = (step.unshot / start).ln() / (settings.stop / start).ln();
+            observer.tell(Phase::Shooting, done).is_break().then_some(Stop::Cancelled)
+        });
         self.energy.unshot = self.unshot_power();
-        self.rows[shooter.index()] = Some(row);
-        self.shots += 1;
+        match stop {
+            Stop::Diverged => Err(diverged(settings)),
+            stop => Ok((stop, history)),
+        }
     }
 
-    /// The unshot radiosities of a patch's elements, all levels settled, W/m²; afterwards there are none.
-    fn take_pending(&mut self, patch: PatchId) -> BTreeMap<ElementId, Rgb> {
+    /// What a patch releases, W/m²; it holds that much less afterwards.
+    fn release(&mut self, patch: PatchId, omega: f64) -> Rgb {
+        let held = self.remembered.as_ref().map_or(&self.unshot, |remembered| &remembered.unshot);
+        let released = omega * held[patch.index()];
+        self.unshot[patch.index()] -= released;
+        released
+    }
+
+    /// The radiosities that a patch's elements release, all levels settled, W/m²; they hold that much
+    /// less afterwards.
+    fn release_elements(&mut self, patch: PatchId, omega: f64) -> BTreeMap<ElementId, Rgb> {
         let reflectance = self.mesh[patch].reflectance;
         let tree = &self.trees[patch.index()];
         let mut light: BTreeMap<ElementId, Rgb> = BTreeMap::new();
         for &element in tree {
-            *light.entry(element).or_default() +=
-                std::mem::take(&mut self.pending[element.index()]);
+            let index = element.index();
+            let remembered = self.remembered.as_ref().map(|remembered| remembered.pending[index]);
+            let released = omega * remembered.unwrap_or(self.pending[index]);
+            self.pending[index] -= released;
+            *light.entry(element).or_default() += released;
             for &child in &self.mesh[element].children {
                 light.insert(child, light[&element]);
             }
@@ -180,7 +180,7 @@ impl<'a> Shooting<'a> {
     }
 
     /// Computes the rows that are missing of some patches.
-    fn prepare(&mut self, patches: &[PatchId]) {
+    fn make_rows(&mut self, patches: &[PatchId]) {
         if self.kept > KEPT_LINKS {
             self.rows.fill(None);
             self.kept = 0;
@@ -203,19 +203,6 @@ impl<'a> Shooting<'a> {
         }
     }
 
-    /// The patches with the most unshot power, the most first; equals in their order.
-    fn brightest(&self, count: usize) -> Vec<PatchId> {
-        let power =
-            |index: &usize| self.unshot[*index].element_sum() * self.mesh.patches[*index].area;
-        let by_power = |a: &usize, b: &usize| power(b).total_cmp(&power(a)).then(a.cmp(b));
-        let mut order: Vec<usize> = (0..self.unshot.len()).collect();
-        let count = count.min(order.len());
-        order.select_nth_unstable_by(count - 1, by_power);
-        order.truncate(count);
-        order.sort_by(by_power);
-        order.into_iter().map(|index| PatchId(index as u32)).collect()
-    }
-
     fn unshot_power(&self) -> Rgb {
         self.mesh.patches.iter().zip(&self.unshot).map(|(patch, &unshot)| unshot * patch.area).sum()
     }
@@ -232,6 +219,69 @@ impl<'a> Shooting<'a> {
     }
 }
 
+impl Residuals for Shooting<'_> {
+    fn rows(&self) -> usize {
+        self.unshot.len()
+    }
+
+    fn area(&self, row: usize) -> f64 {
+        self.mesh.patches[row].area
+    }
+
+    fn residual(&self, row: usize) -> Rgb {
+        self.unshot[row]
+    }
+
+    fn emitted(&self) -> f64 {
+        self.energy.emitted.element_sum()
+    }
+
+    fn remember(&mut self) {
+        let (unshot, pending) = (self.unshot.clone(), self.pending.clone());
+        self.remembered = Some(Held { unshot, pending });
+    }
+
+    fn is_ready(&self, row: usize) -> bool {
+        self.rows[row].is_some()
+    }
+
+    fn prepare(&mut self, rows: &[usize]) {
+        let patches: Vec<PatchId> = rows.iter().map(|&row| PatchId(row as u32)).collect();
+        self.make_rows(&patches);
+    }
+
+    fn relax(&mut self, row: usize, omega: f64) -> Rgb {
+        let shooter = PatchId(row as u32);
+        let released = self.release(shooter, omega);
+        let radiosity = self.release_elements(shooter, omega);
+        let power = released * self.mesh[shooter].area;
+        let row = self.rows[shooter.index()].take().unwrap_or_default();
+        let scale = conserve(power * (1.0 - row.escaped - row.on_backs), &row, &radiosity);
+        for link in &row.links {
+            let receiver = self.mesh[link.receiver].patch;
+            let patch = &self.mesh[receiver];
+            let power = scale * radiosity[&link.source] * link.exchange;
+            let irradiance = power / self.mesh[link.receiver].area;
+            self.received[link.receiver.index()] += irradiance;
+            self.pending[link.receiver.index()] += irradiance;
+            self.unshot[receiver.index()] += patch.reflectance * power / patch.area;
+            self.energy.absorbed += (Rgb::ONE - patch.reflectance) * power;
+        }
+        self.energy.escaped += power * row.escaped;
+        self.energy.on_backs += power * row.on_backs;
+        self.rows[shooter.index()] = Some(row);
+        self.shots += 1;
+        released
+    }
+}
+
+/// Advice for a relaxation that will not end.
+fn diverged(settings: &Settings) -> Error {
+    let (solver, omega) = (settings.solver.name(), settings.omega);
+    let message = format!("{solver} with {omega} lets the light grow without end; use 1 or less");
+    Error::Setting { name: "omega", message }
+}
+
 /// The values of leaves, zero for all others.
 fn leaves_only(mesh: &Mesh, values: &[Rgb]) -> Vec<Rgb> {
     let leaf = |(element, &value): (&crate::mesh::Element, &Rgb)| {
@@ -246,6 +296,6 @@ fn leaves_only(mesh: &Mesh, values: &[Rgb]) -> Vec<Rgb> {
 /// lost by that, or come from nowhere.
 fn conserve(power: Rgb, row: &Row, radiosity: &BTreeMap<ElementId, Rgb>) -> Rgb {
     let carried: Rgb = row.links.iter().map(|link| radiosity[&link.source] * link.exchange).sum();
-    let scale = Rgb::select(carried.cmpgt(Rgb::ZERO), power / carried, Rgb::ONE);
+    let scale = Rgb::select(carried.cmpne(Rgb::ZERO), power / carried, Rgb::ONE);
     scale.clamp(Rgb::splat(0.8), Rgb::splat(1.25))
 }

@@ -78,6 +78,29 @@ fn a_shot_limit_leaves_an_unfinished_solution() {
 }
 
 #[test]
+fn solvers_are_on_record_with_their_history() {
+    let place = Place::new();
+    for (solver, omega) in
+        [("jacobi", "0.9"), ("gauss-seidel", "1.2"), ("southwell", "1"), ("progressive", "1.1")]
+    {
+        let options = ["--solver", solver, "--omega", omega, "--history", "deep/a.csv", "--json"];
+        let json = place.solve(&options).done().json();
+        assert_eq!(json["stop"], "converged", "{solver}");
+        assert_eq!(json["settings"]["solver"], solver);
+        assert_eq!(json["settings"]["omega"].as_f64(), omega.parse().ok());
+        assert_eq!(json["written"][0], "deep/a.csv");
+
+        let text = std::fs::read_to_string(place.path("deep/a.csv")).expect("it was written");
+        let mut lines = text.lines();
+        assert_eq!(lines.next(), Some("round,shots,patch,residual,unshot"));
+        assert!(lines.next().is_some_and(|line| line.starts_with("1,0,,")), "{text}");
+        let last: Vec<f64> =
+            lines.next_back().unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
+        assert!(last[0] == 2.0 && last[1] > 1.0 && last[4] <= 0.05, "{solver}: {last:?}");
+    }
+}
+
+#[test]
 fn a_solved_glb_gives_the_picture_that_came_with_it() {
     let place = Place::new();
     let scene = scene("cornell-box.glb");

@@ -21,6 +21,8 @@ fn wrong_usage_ends_with_two() {
     solve(&["--no-such-option"]).refused(2, &["--no-such-option"]);
     solve(&["--size", "0x5"]).refused(2, &["WIDTHxHEIGHT"]);
     solve(&["--tolerance", "2"]).refused(2, &["tolerance", "0.001 to 1"]);
+    solve(&["--solver", "lu"]).refused(2, &["gauss-seidel"]);
+    solve(&["--omega", "2"]).refused(2, &["omega", "less than 2"]);
     solve(&["--uniform", "1e-7"]).refused(2, &["uniform", "pieces"]);
     solve(&["--eye", "-1,2,3"]).refused(2, &["--target"]);
     solve(&["--eye", "-1,2,3", "--target", "-1,2,3"]).refused(2, &["same point"]);
@@ -33,6 +35,7 @@ fn unknown_endings_are_refused_before_the_scene_is_read() {
     let place = Place::new();
     place.run(&["solve", "missing.obj", "-o", "a.stl"]).refused(2, &["a.stl", ".glb"]);
     place.run(&["solve", "missing.obj", "--image", "a.gif"]).refused(2, &["a.gif", ".png"]);
+    place.run(&["solve", "missing.obj", "--history", "a.txt"]).refused(2, &["a.txt", ".csv"]);
     place.run(&["solve", "scene.blend"]).refused(2, &["scene.blend", ".obj"]);
 }
 
@@ -42,6 +45,7 @@ fn what_cannot_be_written_is_refused_before_the_scene_is_read() {
     place.write("file", "");
     place.run(&["solve", "missing.obj", "-o", "file/a.glb"]).refused(1, &["file/a.glb"]);
     place.run(&["solve", "missing.obj", "--image", "file/a.png"]).refused(1, &["file/a.png"]);
+    place.run(&["solve", "missing.obj", "--history", "file/a.csv"]).refused(1, &["file/a.csv"]);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! How finely and how long to compute.
 
 use clap::{Args, ValueEnum};
+use radiosity::settings::Method;
 use radiosity::{Length, Settings};
 
 use super::values;
@@ -50,6 +51,18 @@ pub(crate) struct AccuracyOptions {
     #[arg(long, value_name = "N")]
     max_shots: Option<usize>,
 
+    /// Which patch sends its reflected light on next
+    ///
+    /// All end with the same light; progressive and southwell leave little unshot soonest.
+    #[arg(long, value_enum, default_value_t = Solver::Progressive)]
+    solver: Solver,
+
+    /// Factor on the light that a patch sends at a time; above 1 over-relaxes (0 to 2; default: 1)
+    ///
+    /// 1.2 saves a third of the shots in bright rooms. jacobi may grow without end above 1.
+    #[arg(long, value_name = "FACTOR", value_parser = values::number)]
+    omega: Option<f64>,
+
     /// Cells along a hemicube's edge: even, 32 to 1024 (default: 128)
     ///
     /// More sees smaller things between patches; time grows with its square.
@@ -65,6 +78,29 @@ enum Quality {
     Medium,
     /// For final pictures
     High,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Solver {
+    /// All in turn, each what it held when the turn began
+    Jacobi,
+    /// All in turn, each what it holds by then
+    GaussSeidel,
+    /// The one with the most unshot radiosity, W/m²
+    Southwell,
+    /// The one with the most unshot power, W
+    Progressive,
+}
+
+impl From<Solver> for Method {
+    fn from(solver: Solver) -> Self {
+        match solver {
+            Solver::Jacobi => Self::Jacobi,
+            Solver::GaussSeidel => Self::GaussSeidel,
+            Solver::Southwell => Self::Southwell,
+            Solver::Progressive => Self::Progressive,
+        }
+    }
 }
 
 impl AccuracyOptions {
@@ -83,6 +119,8 @@ impl AccuracyOptions {
             uniform: self.uniform,
             stop: self.stop.unwrap_or(preset.stop),
             max_shots: self.max_shots,
+            solver: self.solver.into(),
+            omega: self.omega.unwrap_or(preset.omega),
             hemicube_resolution: self.hemicube_resolution.unwrap_or(preset.hemicube_resolution),
         }
     }

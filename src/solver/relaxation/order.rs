@@ -1,0 +1,61 @@
+//! Which row is next.
+
+use super::{BATCH, Residuals};
+use crate::settings::Method;
+
+/// The order of a method.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Order {
+    method: Method,
+    /// Rows taken so far.
+    taken: usize,
+}
+
+impl Order {
+    pub(super) fn new(method: Method) -> Self {
+        Self { method, taken: 0 }
+    }
+
+    /// The next row, made ready together with those likely to follow; none if there are no rows.
+    pub(super) fn next(&mut self, system: &mut impl Residuals) -> Option<usize> {
+        if self.method == Method::Jacobi && self.taken.is_multiple_of(system.rows().max(1)) {
+            system.remember();
+        }
+        let row = *self.ahead(system, 1).first()?;
+        if !system.is_ready(row) {
+            let ahead = self.ahead(system, BATCH);
+            system.prepare(&ahead);
+        }
+        self.taken += 1;
+        Some(row)
+    }
+
+    /// The next rows, as things stand.
+    fn ahead(&self, system: &impl Residuals, count: usize) -> Vec<usize> {
+        let rows = system.rows();
+        let count = count.min(rows);
+        let strength = |row: usize| system.residual(row).abs().element_sum();
+        match self.method {
+            Method::Jacobi | Method::GaussSeidel => {
+                (self.taken..self.taken + count).map(|turn| turn % rows).collect()
+            }
+            Method::Southwell => largest(rows, count, strength),
+            Method::Progressive => largest(rows, count, |row| strength(row) * system.area(row)),
+        }
+    }
+}
+
+/// The rows with the largest values, the largest first; equals in their order.
+fn largest(rows: usize, count: usize, value: impl Fn(usize) -> f64) -> Vec<usize> {
+    let by_value = |&a: &usize, &b: &usize| value(b).total_cmp(&value(a)).then(a.cmp(&b));
+    if count == 1 {
+        return (0..rows).min_by(by_value).into_iter().collect();
+    }
+    let mut order: Vec<usize> = (0..rows).collect();
+    if count < rows {
+        order.select_nth_unstable_by(count, by_value);
+        order.truncate(count);
+    }
+    order.sort_unstable_by(by_value);
+    order
+}

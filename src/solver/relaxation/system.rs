@@ -1,0 +1,141 @@
+//! The assembled system: form factors, reflectances and exitances of n patches.
+
+use super::check::{check_exitance, check_reflectance, check_row};
+use super::{Criteria, Relaxation, Residuals, Step};
+use crate::colour::Rgb;
+use crate::error::Result;
+use crate::form_factor::FormFactors;
+use crate::solver::Stop;
+
+/// M B = E with M = I − diag(ρ) F, all channels together.
+#[derive(Clone, Debug)]
+pub struct System {
+    pub(super) factors: FormFactors,
+    pub(super) reflectance: Vec<Rgb>,
+    pub(super) exitance: Vec<Rgb>,
+    /// By patch: who sees it, as (j, `F[j][i]`), j ascending.
+    seen_by: Vec<Vec<(usize, f64)>>,
+}
+
+/// What came of a relaxation.
+#[derive(Clone, Debug)]
+pub struct Relaxed {
+    /// B of each patch, W/m².
+    pub radiosity: Vec<Rgb>,
+    /// Why it ended.
+    pub stop: Stop,
+    /// The state before the first row was relaxed, and after each.
+    pub history: Vec<Step>,
+}
+
+impl System {
+    /// From the form factors between n patches, and n reflectances ρ and exitances E, W/m².
+    ///
+    /// # Errors
+    /// When light could grow without end, since a patch reflects as much as leaves it, or more; or when
+    /// a reflectance is negative, or a number is none.
+    pub fn new(factors: FormFactors, reflectance: Vec<Rgb>, exitance: Vec<Rgb>) -> Result<Self> {
+        let n = factors.len();
+        assert_eq!([reflectance.len(), exitance.len()], [n, n], "one of each for every patch");
+        let mut seen_by = vec![Vec::new(); n];
+        for patch in 0..n {
+            let sum = factors.row(patch).map(|(_, factor)| factor.abs()).sum();
+            check_reflectance(reflectance[patch], format_args!("patch {patch}"))?;
+            check_row(patch, reflectance[patch], sum)?;
+            check_exitance(patch, exitance[patch])?;
+            for (seen, factor) in factors.row(patch) {
+                seen_by[seen].push((patch, factor));
+            }
+        }
+        Ok(Self { factors, reflectance, exitance, seen_by })
+    }
+
+    /// Number of patches.
+    pub fn len(&self) -> usize {
+        self.factors.len()
+    }
+
+    /// True if there are no patches.
+    pub fn is_empty(&self) -> bool {
+        self.factors.is_empty()
+    }
+
+    /// The form factors.
+    pub fn factors(&self) -> &FormFactors {
+        &self.factors
+    }
+
+    /// r = E − M B, W/m², of radiosities B, W/m².
+    pub fn residual(&self, radiosity: &[Rgb]) -> Vec<Rgb> {
+        let row = |i: usize| {
+            let received: Rgb = self.factors.row(i).map(|(j, factor)| factor * radiosity[j]).sum();
+            self.exitance[i] + self.reflectance[i] * received - radiosity[i]
+        };
+        (0..self.len()).map(row).collect()
+    }
+
+    /// Relaxes the system, from darkness.
+    pub fn relax(&self, relaxation: Relaxation, criteria: &Criteria) -> Relaxed {
+        let mut state = State::dark(self);
+        let (stop, history) = relaxation.run(&mut state, |step| criteria.judge(step));
+        Relaxed { radiosity: state.radiosity, stop, history }
+    }
+
+    /// `M[i][i]`: 1, but for patches that see themselves.
+    fn diagonal(&self, i: usize) -> Rgb {
+        Rgb::ONE - self.reflectance[i] * self.factors.get(i, i)
+    }
+}
+
+/// A system being relaxed.
+struct State<'a> {
+    system: &'a System,
+    radiosity: Vec<Rgb>,
+    residual: Vec<Rgb>,
+    /// What rows release, if that is not what they hold.
+    remembered: Option<Vec<Rgb>>,
+}
+
+impl<'a> State<'a> {
+    fn dark(system: &'a System) -> Self {
+        let radiosity = vec![Rgb::ZERO; system.len()];
+        Self { system, radiosity, residual: system.exitance.clone(), remembered: None }
+    }
+}
+
+impl Residuals for State<'_> {
+    fn rows(&self) -> usize {
+        self.system.len()
+    }
+
+    fn area(&self, row: usize) -> f64 {
+        self.system.factors.areas()[row]
+    }
+
+    fn residual(&self, row: usize) -> Rgb {
+        self.residual[row]
+    }
+
+    fn emitted(&self) -> f64 {
+        let areas = self.system.factors.areas().iter();
+        areas.zip(&self.system.exitance).map(|(&area, e)| area * e.abs().element_sum()).sum()
+    }
+
+    fn remember(&mut self) {
+        self.remembered = Some(self.residual.clone());
+    }
+
+    fn relax(&mut self, row: usize, omega: f64) -> Rgb {
+        let held = self.remembered.as_ref().unwrap_or(&self.residual)[row];
+        let released = omega * held;
+        let change = released / self.system.diagonal(row);
+        self.radiosity[row] += change;
+        self.residual[row] -= released;
+        for &(receiver, factor) in &self.system.seen_by[row] {
+            if receiver != row {
+                self.residual[receiver] += self.system.reflectance[receiver] * factor * change;
+            }
+        }
+        change
+    }
+}
