@@ -21,7 +21,7 @@ mod stage;
 use stage::{Block, Stage};
 
 /// Hemicubes in one measurement, each from another point.
-const LOOKS: usize = 32;
+const LOOKS: usize = 16;
 
 /// Resolutions, cells along the edges of the top face.
 const RESOLUTIONS: [usize; 4] = [64, 128, 256, 512];
@@ -48,7 +48,7 @@ fn main() {
     divan::main();
 }
 
-#[divan::bench(args = RESOLUTIONS, consts = [0, 1, 2], sample_count = 20, sample_size = 1)]
+#[divan::bench(args = RESOLUTIONS, consts = [0, 1, 2], sample_count = 12, sample_size = 1)]
 fn elements_of_1k_patches<const ROOM: usize>(bencher: Bencher, resolution: usize) {
     elements(bencher, &COARSE[ROOM], resolution);
 }
@@ -58,7 +58,7 @@ fn elements_of_10k_patches<const ROOM: usize>(bencher: Bencher, resolution: usiz
     elements(bencher, &FINE[ROOM], resolution);
 }
 
-#[divan::bench(args = RESOLUTIONS, sample_count = 20, sample_size = 1)]
+#[divan::bench(args = RESOLUTIONS, sample_count = 12, sample_size = 1)]
 fn look_at_1k_patches(bencher: Bencher, resolution: usize) {
     let room = &COARSE[0];
     let delta = DeltaFactors::new(resolution);

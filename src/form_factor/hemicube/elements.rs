@@ -107,19 +107,31 @@ impl PatchSums {
             for first in (from..to).step_by(S::F32_LANES) {
                 let (cells, [u, v]) = lens.cells(simd, grid, (run.row, first));
                 let shares = shares(simd, profile, (first, resolution));
-                for k in 0..S::F32_LANES.min(to - first) {
-                    let cell = cells[k];
-                    let leaf =
-                        if grid.is_regular { cell } else { map.leaf(grid, cell, [u[k], v[k]]) };
-                    let sum = &mut self.sums[leaf as usize];
-                    self.touched[count] = leaf;
-                    count += usize::from(*sum == 0.0);
-                    *sum += shares[k];
+                let here = 0..S::F32_LANES.min(to - first);
+                if grid.is_regular {
+                    for k in here {
+                        count = self.put(cells[k], shares[k], count);
+                    }
+                } else {
+                    for k in here {
+                        let leaf = map.leaf(grid, cells[k], [u[k], v[k]]);
+                        count = self.put(leaf, shares[k], count);
+                    }
                 }
             }
             next = run.before;
         }
         count
+    }
+
+    /// Adds a cell's factor to the leaf it sees; returns how many have been seen.
+    #[inline(always)]
+    fn put(&mut self, leaf: u32, share: f32, count: usize) -> usize {
+        let sum = &mut self.sums[leaf as usize];
+        let is_new = *sum == 0.0;
+        *sum += share;
+        self.touched[count] = leaf;
+        count + usize::from(is_new)
     }
 }
 
