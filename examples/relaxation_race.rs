@@ -4,13 +4,12 @@
 #[path = "common/plot.rs"]
 mod plot;
 
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
 use plot::{Curve, Plot};
-use radiosity::form_factor::FormFactors;
-use radiosity::form_factor::contour::point_to_polygon;
-use radiosity::form_factor::hemicube::{DeltaFactors, Hemicube};
+use radiosity::form_factor::{self, assemble};
 use radiosity::mesh::Mesh;
 use radiosity::settings::Method;
 use radiosity::solver::relaxation::{Criteria, Relaxation, Step, System};
@@ -74,28 +73,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     plot.save(Path::new("out/relaxation-race.svg"))
 }
 
-/// The office's patches and the form factors between them, by a hemicube over the centre of each.
+/// The office's patches and the form factors between them, by hemicubes.
 fn office() -> radiosity::Result<System> {
     let surfaces = surfaces_of(&load(Path::new("scenes/office.obj"), &Default::default())?);
-    let settings =
-        Settings { patch_size: Length::Metres(PATCH), max_level: 0, ..Settings::medium() };
-    let mesh = Mesh::new(&surfaces, &settings);
-    let occluders = Occluders::new(&surfaces);
-    let delta = DeltaFactors::new(settings.hemicube_resolution as usize);
-    let mut hemicube = Hemicube::new(&delta, &occluders);
-    let rows = mesh.patches.iter().map(|patch| {
-        let centre = patch.corners.iter().sum::<glam::DVec3>() / patch.corners.len() as f64;
-        let sights = hemicube.look(&mesh.patches, (centre, patch.normal), 0.0);
-        let seen = sights.into_iter().filter(|sight| sight.front);
-        let factor = |sight: radiosity::form_factor::hemicube::Sight| {
-            let corners = &mesh[sight.patch].corners;
-            (sight.patch.0, sight.visible * point_to_polygon(centre, patch.normal, corners))
-        };
-        seen.map(factor).collect::<Vec<_>>()
-    });
-    let areas = mesh.patches.iter().map(|patch| patch.area).collect();
-    let factors = FormFactors::from_rows(areas, rows);
-    let reflectance = mesh.patches.iter().map(|patch| patch.reflectance).collect();
-    let exitance = mesh.patches.iter().map(|patch| patch.exitance).collect();
+    let settings = Settings { patch_size: Length::Metres(PATCH), ..Settings::medium() };
+    let patches = Mesh::new(&surfaces, &settings).patches;
+    let method = form_factor::Method::Hemicube(settings.hemicube_resolution);
+    let go_on = |_| ControlFlow::Continue(());
+    let factors = assemble(&patches, &Occluders::new(&surfaces), method, go_on).factors;
+    let reflectance = patches.iter().map(|patch| patch.reflectance).collect();
+    let exitance = patches.iter().map(|patch| patch.exitance).collect();
     System::new(factors, reflectance, exitance)
 }

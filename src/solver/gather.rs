@@ -15,7 +15,7 @@ use super::sources::{Piece, Sources};
 use super::transport::turn;
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
-use crate::form_factor::hemicube::{DeltaFactors, Hemicube, Sight};
+use crate::form_factor::hemicube::{DeltaFactors, Hemicube, Sight, Targets};
 use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
 
 /// Cells along the edge of the hemicubes over vertices: they measure visibility only, and vertices
@@ -59,10 +59,11 @@ impl<'a> Gatherer<'a> {
             vertices.into_iter().filter(|&v| mesh[v].indirect.is_none()).collect();
         dark.sort_unstable();
         dark.dedup();
+        let targets = Targets::new(&mesh.patches);
         let lit: Vec<(Rgb, View)> = dark
             .par_iter()
             .map_init(
-                || Hemicube::new(&self.delta, self.world.occluders),
+                || Hemicube::new(&self.delta, &targets, self.world.occluders),
                 |hemicube, &vertex| self.gather(mesh, hemicube, vertex),
             )
             .collect();
@@ -95,10 +96,10 @@ impl<'a> Gatherer<'a> {
     fn gather(&self, mesh: &Mesh, hemicube: &mut Hemicube<'_>, vertex: VertexId) -> (Rgb, View) {
         let site = mesh[vertex].site;
         let normal = self.world.surfaces.list[mesh[vertex].surface as usize].plane.normal;
-        let sights = hemicube.look(&mesh.patches, (site, normal), turn(vertex.index()));
+        let hemicube = hemicube.look((site, normal), turn(vertex.index()));
         let mut irradiance = Rgb::ZERO;
         let mut view = View::new();
-        for sight in sights.into_iter().filter(|sight| sight.front) {
+        for sight in hemicube.sights().filter(|sight| sight.front) {
             irradiance += self.receive(mesh, hemicube, (site, normal), sight);
             if sight.delta > WIDE {
                 view.push((sight.patch, sight.delta));
@@ -111,7 +112,7 @@ impl<'a> Gatherer<'a> {
     fn receive(
         &self,
         mesh: &Mesh,
-        hemicube: &mut Hemicube<'_>,
+        hemicube: &Hemicube<'_>,
         (site, normal): (DVec3, DVec3),
         sight: Sight,
     ) -> Rgb {
@@ -135,7 +136,7 @@ impl<'a> Gatherer<'a> {
             let visible = match sight.visible {
                 1.0 => 1.0,
                 visible if source == root => visible,
-                _ => hemicube.visible_share(sight.patch, &corners, plane.normal),
+                _ => hemicube.visible_share(sight.patch, &corners),
             };
             irradiance += visible
                 * if varies {

@@ -17,7 +17,7 @@ use super::transport::{Row, row};
 use super::{ElementLight, Observer, Phase, Stop};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
-use crate::form_factor::hemicube::{DeltaFactors, Hemicube};
+use crate::form_factor::hemicube::{DeltaFactors, Hemicube, Targets};
 use crate::mesh::{ElementId, Mesh, PatchId};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
@@ -38,6 +38,7 @@ pub(super) struct Shooting<'a> {
     surfaces: &'a Surfaces,
     occluders: &'a Occluders,
     delta: DeltaFactors,
+    targets: Targets,
     rows: Vec<Option<Row>>,
     kept: usize,
     /// By patch: its elements, parents before their children.
@@ -70,6 +71,7 @@ impl<'a> Shooting<'a> {
             surfaces,
             occluders,
             delta: DeltaFactors::new(settings.hemicube_resolution as usize),
+            targets: Targets::new(&mesh.patches),
             rows: vec![None; mesh.patches.len()],
             kept: 0,
             trees: mesh.trees(),
@@ -188,11 +190,11 @@ impl<'a> Shooting<'a> {
         let missing: Vec<PatchId> =
             patches.iter().copied().filter(|patch| self.rows[patch.index()].is_none()).collect();
         let (mesh, surfaces) = (self.mesh, self.surfaces);
-        let (delta, occluders) = (&self.delta, self.occluders);
+        let (delta, targets, occluders) = (&self.delta, &self.targets, self.occluders);
         let rows: Vec<Row> = missing
             .par_iter()
             .map_init(
-                || Hemicube::new(delta, occluders),
+                || Hemicube::new(delta, targets, occluders),
                 |hemicube, &patch| row(mesh, surfaces, hemicube, patch),
             )
             .collect();

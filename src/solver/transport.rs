@@ -62,7 +62,7 @@ pub(super) fn row(
     while let Some(source) = open.pop() {
         let place = Place::new(mesh, surfaces, source);
         let eye = (place.centre, place.normal);
-        let sights = hemicube.look(&mesh.patches, eye, turn(source.index()));
+        let hemicube = hemicube.look(eye, turn(source.index()));
         let parts = &mesh[source].children;
         let divisible = mesh[source].level < LOOK_LEVELS && !parts.is_empty();
         if divisible && hemicube.share_within(CLOSE * place.size) > CLOSE_SHARE {
@@ -71,7 +71,7 @@ pub(super) fn row(
         }
         let share = mesh[source].area / patch.area;
         row.escaped += hemicube.escaping() * share;
-        for sight in sights {
+        for sight in hemicube.sights() {
             if sight.front {
                 Linking { mesh, surfaces, hemicube, sight }.link(source, &mut row.links);
             } else {
@@ -93,7 +93,7 @@ pub(super) fn turn(index: usize) -> f64 {
 struct Linking<'a, 'b> {
     mesh: &'a Mesh,
     surfaces: &'a Surfaces,
-    hemicube: &'a mut Hemicube<'b>,
+    hemicube: &'a Hemicube<'b>,
     sight: Sight,
 }
 
@@ -108,7 +108,7 @@ struct Place {
 
 impl Linking<'_, '_> {
     /// Links the elements of the patch in sight with those under `source`, fine enough for their distance.
-    fn link(&mut self, source: ElementId, links: &mut Vec<Link>) {
+    fn link(&self, source: ElementId, links: &mut Vec<Link>) {
         let mut open: SmallVec<[(ElementId, ElementId); 32]> = SmallVec::new();
         open.push((source, self.mesh[self.sight.patch].root));
         while let Some((source, receiver)) = open.pop() {
@@ -129,7 +129,7 @@ impl Linking<'_, '_> {
     }
 
     /// Visible form factor times area, m²: by reciprocity the same from source to receiver and back.
-    fn exchange(&mut self, source: &Place, receiver: &Place, near: bool) -> f64 {
+    fn exchange(&self, source: &Place, receiver: &Place, near: bool) -> f64 {
         let (small, large) =
             if source.size < receiver.size { (source, receiver) } else { (receiver, source) };
         let see = |point: &DVec3| {
@@ -144,7 +144,7 @@ impl Linking<'_, '_> {
         let visible = match self.sight.visible {
             1.0 => 1.0,
             visible if self.mesh[self.sight.patch].root == receiver.element => visible,
-            _ => self.hemicube.visible_share(self.sight.patch, &receiver.corners, receiver.normal),
+            _ => self.hemicube.visible_share(self.sight.patch, &receiver.corners),
         };
         factor * visible * self.mesh[small.element].area
     }

@@ -10,7 +10,7 @@ use std::ops::{ControlFlow, Range};
 use rayon::prelude::*;
 
 use super::FormFactors;
-use super::hemicube::DeltaFactors;
+use super::hemicube::{DeltaFactors, Targets};
 use super::pair::exchange;
 use super::rays::Sphere;
 use crate::mesh::Patch;
@@ -71,8 +71,8 @@ pub fn assemble(
             in_batches(patches.len(), &mut rows, || (), |(), i| exchanges.row(i), &mut observe);
         }
         Method::Hemicube(resolution) => {
-            let delta = DeltaFactors::new(resolution as usize);
-            let looker = || views::Cells::new(patches, occluders, &delta);
+            let (delta, targets) = (DeltaFactors::new(resolution as usize), Targets::new(patches));
+            let looker = || views::Cells::new(patches, occluders, (&delta, &targets));
             let row = |look: &mut views::Cells<'_>, i| sampled::row(patches, i, look);
             in_batches(patches.len(), &mut rows, looker, row, &mut observe);
         }

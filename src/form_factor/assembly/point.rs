@@ -6,7 +6,7 @@ use super::Method;
 use super::sampled::{Look, Seen};
 use super::views::{Cells, Sphere};
 use crate::form_factor::contour::point_to_polygon;
-use crate::form_factor::hemicube::DeltaFactors;
+use crate::form_factor::hemicube::{DeltaFactors, Targets};
 use crate::form_factor::rays;
 use crate::mesh::Patch;
 use crate::visibility::{HalfSpace, Occluders, PatchHierarchy};
@@ -26,8 +26,9 @@ pub fn factors_at(
             patches.iter().map(factor).collect()
         }
         Method::Hemicube(resolution) => {
-            let delta = DeltaFactors::new(resolution as usize);
-            let seen = Cells::new(patches, occluders, &delta).look(point, normal, 0.0);
+            let (delta, targets) = (DeltaFactors::new(resolution as usize), Targets::new(patches));
+            let mut look = Cells::new(patches, occluders, (&delta, &targets));
+            let seen = look.look(point, normal, 0.0);
             dense(patches.len(), &seen)
         }
         Method::Rays(count) => {

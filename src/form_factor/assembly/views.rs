@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::sampled::{Look, Seen};
 use crate::form_factor::contour::point_to_polygon;
-use crate::form_factor::hemicube::{DeltaFactors, Hemicube};
+use crate::form_factor::hemicube::{DeltaFactors, Hemicube, Targets};
 use crate::form_factor::rays::{self, Rays};
 use crate::mesh::Patch;
 use crate::visibility::{HalfSpace, Occluders, PatchHierarchy};
@@ -19,17 +19,16 @@ impl<'a> Cells<'a> {
     pub(super) fn new(
         patches: &'a [Patch],
         occluders: &'a Occluders,
-        delta: &'a DeltaFactors,
+        (delta, targets): (&'a DeltaFactors, &'a Targets),
     ) -> Self {
-        Self { patches, hemicube: Hemicube::new(delta, occluders) }
+        Self { patches, hemicube: Hemicube::new(delta, targets, occluders) }
     }
 }
 
 impl Look for Cells<'_> {
     fn look(&mut self, eye: DVec3, normal: DVec3, turn: f64) -> Vec<Seen> {
         let patches = self.patches;
-        let sights = self.hemicube.look(patches, (eye, normal), turn);
-        let fronts = sights.into_iter().filter(|sight| sight.front);
+        let fronts = self.hemicube.look((eye, normal), turn).sights().filter(|sight| sight.front);
         let seen = fronts.map(|sight| {
             let all = point_to_polygon(eye, normal, &patches[sight.patch.index()].corners);
             let factor = sight.visible * all;

@@ -14,8 +14,12 @@ use std::f64::consts::PI;
 pub struct DeltaFactors {
     resolution: usize,
     cells: Vec<f32>,
-    /// For each row, the sums over its first 0, 1, …, `resolution` cells.
+    /// For each row of the top and of one half face, the sums over its first 0, 1, …, `resolution`
+    /// cells.
     sums: Vec<f32>,
+    /// For the same rows, c and d with which the factor of a cell at x = -1..1 along the row is
+    /// d / (x² + c)².
+    profiles: Vec<[f32; 2]>,
 }
 
 impl DeltaFactors {
@@ -43,15 +47,22 @@ impl DeltaFactors {
             cells.extend(&side);
         }
         let total: f64 = cells.iter().sum();
-        let sums = cells.chunks_exact(resolution).flat_map(|row| {
+        let unlike = resolution + resolution / 2;
+        let sums = cells.chunks_exact(resolution).take(unlike).flat_map(|row| {
             let running = row.iter().scan(0.0, |sum, cell| {
                 *sum += cell;
                 Some(*sum)
             });
             std::iter::once(0.0).chain(running)
         });
+        let profile = |row: usize| {
+            let height = if row < resolution { at(row) - 1.0 } else { at(row - resolution) };
+            let cosine = if row < resolution { 1.0 } else { height };
+            [height * height + 1.0, cosine * step * step / (PI * total)].map(|value| value as f32)
+        };
         Self {
             resolution,
+            profiles: (0..unlike).map(profile).collect(),
             sums: sums.map(|sum| (sum / total) as f32).collect(),
             cells: cells.iter().map(|cell| (cell / total) as f32).collect(),
         }
@@ -67,10 +78,30 @@ impl DeltaFactors {
         &self.cells
     }
 
-    /// Sum over the cells `columns` of a row.
-    pub(super) fn sum(&self, row: usize, columns: std::ops::Range<usize>) -> f32 {
-        let first = row * (self.resolution + 1);
-        self.sums[first + columns.end] - self.sums[first + columns.start]
+    /// Factors of the cells in a row of a face.
+    #[inline(always)]
+    pub(super) fn row(&self, face: usize, row: usize) -> &[f32] {
+        let first = self.first_row(face) + row;
+        &self.cells[first * self.resolution..(first + 1) * self.resolution]
+    }
+
+    /// What the factors of the cells in a row of a face are computed from: c and d of d / (x² + c)².
+    #[inline(always)]
+    pub(super) fn profile(&self, face: usize, row: usize) -> [f32; 2] {
+        self.profiles[self.first_row(face) + row]
+    }
+
+    /// Sums over the first 0, 1, …, `resolution` cells in a row of a face.
+    #[inline(always)]
+    pub(super) fn sums(&self, face: usize, row: usize) -> &[f32] {
+        let first = (self.first_row(face) + row) * (self.resolution + 1);
+        &self.sums[first..=first + self.resolution]
+    }
+
+    /// First row of the faces like this one; the half faces are all alike.
+    #[inline(always)]
+    fn first_row(&self, face: usize) -> usize {
+        if face == 0 { 0 } else { self.resolution }
     }
 }
 
@@ -85,6 +116,21 @@ mod tests {
             assert_eq!(delta.cells().len(), 3 * resolution * resolution, "cells");
             let total: f64 = delta.cells().iter().map(|&cell| f64::from(cell)).sum();
             assert!((total - 1.0).abs() < 1e-5, "{total}");
+        }
+    }
+
+    #[test]
+    fn profiles_are_what_the_factors_are_computed_from() {
+        let delta = DeltaFactors::new(64);
+        for (face, rows) in [64, 32, 32, 32, 32].into_iter().enumerate() {
+            for row in 0..rows {
+                let [c, d] = delta.profile(face, row);
+                for (column, cell) in delta.row(face, row).iter().enumerate() {
+                    let x = (column as f32 + 0.5) / 32.0 - 1.0;
+                    let factor = d / (x * x + c).powi(2);
+                    assert!((factor / cell - 1.0).abs() < 1e-5, "{factor} for {cell}");
+                }
+            }
         }
     }
 

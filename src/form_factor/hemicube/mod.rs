@@ -4,19 +4,35 @@
 //! with a z-buffer; a cell keeps the nearest. The *form factor* of what is seen is then not the sum
 //! of its cells' delta factors but the exact one of the polygon times the share of its cells that
 //! it kept: the cells only measure visibility, which takes most of the aliasing away.
+//!
+//! Only whole patches are drawn. What element a cell sees follows from where on the patch its ray
+//! ends, so that a look costs patches and cells, never elements. The loops are written in registers'
+//! widths and compiled twice; which of both runs is found out when it runs, and changes no bit.
 
+mod cells;
+mod clip;
 mod delta;
+mod element_map;
+mod elements;
 mod packets;
 mod raster;
+mod targets;
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, Vec3};
+use pulp::{Arch, Simd, WithSimd};
 
 use super::contour::point_to_polygon;
-use crate::mesh::{Patch, PatchId};
+use crate::mesh::PatchId;
 use crate::visibility::{Occluders, PatchHierarchy};
 
 pub use delta::DeltaFactors;
-use raster::{Footprint, Raster, first_centre};
+pub use element_map::ElementMap;
+pub use elements::ElementSums;
+pub use targets::Targets;
+
+use cells::{Cells, NOTHING, Run};
+use clip::Corners;
+use raster::Raster;
 
 /// Patches in one plane with the eye are seen edge-on, that is, not at all; heights below this, m,
 /// are rounding.
@@ -26,35 +42,44 @@ const HAIR: f64 = 1e-11;
 /// over rounding.
 const RECESS: f32 = 1.0 - 1e-5;
 
-/// No patch at all: light escapes through the cell.
-const NOTHING: u32 = u32::MAX;
-
-/// A hemicube, reused from point to point.
+/// A hemicube, reused from point to point; nothing is allocated for a look.
 #[derive(Clone, Debug)]
 pub struct Hemicube<'a> {
     delta: &'a DeltaFactors,
+    targets: &'a Targets,
     occluders: &'a Occluders,
-    /// Where patches outnumber cells, rays find what the cells see.
-    hierarchy: Option<&'a PatchHierarchy>,
+    arch: Arch,
     raster: Raster,
+    corners: Corners,
     eye: DVec3,
     frame: DMat3,
-    /// Reciprocal depth of what each cell sees.
-    depth: Vec<f32>,
-    /// Patch that each cell sees.
-    item: Vec<u32>,
-    /// By patch: sums of delta factors it covers, and of those it kept.
-    sums: Vec<[f32; 2]>,
+    cells: Cells,
+    runs: Vec<Run>,
+    /// Set if this look is by rays.
+    rays: Option<&'a PatchHierarchy>,
+    /// By patch, right for those drawn in this look.
+    prints: Vec<Print>,
     drawn: Vec<u32>,
 }
 
+/// What a patch that was drawn has come to.
+#[derive(Clone, Copy, Debug, Default)]
+struct Print {
+    /// Sum of the delta factors of the cells it covers.
+    covered: f32,
+    /// Sum of those of the cells it kept.
+    kept: f32,
+    /// The last of its runs, or [`NOTHING`].
+    last: u32,
+}
+
 /// A patch that a point sees, or might see if its view were clearer.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sight {
     /// The patch.
     pub patch: PatchId,
-    /// Share of its projection that nothing hides, 0..=1; where rays fill the cells, what `delta` is
-    /// of its form factor, which for a patch smaller than a cell may be more than 1.
+    /// Share of its projection that nothing hides, 0..=1; where patches outnumber cells, what `delta`
+    /// is of its form factor, which for a patch smaller than a cell may be more than 1.
     pub visible: f64,
     /// Sum of the delta factors of the cells it kept.
     pub delta: f64,
@@ -64,189 +89,235 @@ pub struct Sight {
 
 impl<'a> Hemicube<'a> {
     /// A hemicube with cells as `delta` has them; what falls between their centres is looked for by a ray.
-    pub fn new(delta: &'a DeltaFactors, occluders: &'a Occluders) -> Self {
-        let cells = delta.cells().len();
+    pub fn new(delta: &'a DeltaFactors, targets: &'a Targets, occluders: &'a Occluders) -> Self {
         Self {
             delta,
+            targets,
             occluders,
-            hierarchy: None,
-            raster: Raster::new(delta.resolution()),
+            arch: Arch::new(),
+            raster: Raster::default(),
+            corners: Corners::default(),
             eye: DVec3::ZERO,
             frame: DMat3::IDENTITY,
-            depth: vec![0.0; cells],
-            item: vec![NOTHING; cells],
-            sums: Vec::new(),
+            cells: Cells::new(delta.resolution()),
+            runs: Vec::new(),
+            rays: None,
+            prints: vec![Print::default(); targets.len()],
             drawn: Vec::new(),
         }
     }
 
-    /// The same hemicube, to look by rays where patches outnumber cells. Most of them then cover no
-    /// cell's centre, and those that do stand for the others: their form factors are the plain sums
-    /// of delta factors.
-    #[must_use]
-    pub fn with_rays(self, hierarchy: &'a PatchHierarchy) -> Self {
-        Self { hierarchy: Some(hierarchy), ..self }
+    /// The same, with no instructions but those that every processor has.
+    pub fn portable(mut self) -> Self {
+        self.arch = Arch::Scalar;
+        self
     }
 
-    /// Looks at `patches` from `eye` along the unit `normal`, turned about it by `turn` radians.
-    ///
-    /// The sights come in the patches' order.
-    pub fn look(
-        &mut self,
-        patches: &[Patch],
-        (eye, normal): (DVec3, DVec3),
-        turn: f64,
-    ) -> Vec<Sight> {
+    /// Looks from `eye` along the unit `normal`, turned about it by `turn` radians.
+    pub fn look(&mut self, (eye, normal): (DVec3, DVec3), turn: f64) -> &Self {
         self.eye = eye;
         self.frame = frame(normal, turn);
-        self.sums.clear();
-        self.sums.resize(patches.len(), [0.0; 2]);
-        self.drawn.clear();
-        if let Some(hierarchy) = self.hierarchy.filter(|_| patches.len() > self.item.len()) {
-            return self.look_by_rays(hierarchy, patches);
+        self.rays = self.targets.hierarchy().filter(|_| self.targets.len() > self.cells.len());
+        self.arch.dispatch(Look(self));
+        if self.rays.is_some() {
+            self.weigh_rays();
         }
-        self.depth.fill(0.0);
-        self.item.fill(NOTHING);
-        for (index, patch) in patches.iter().enumerate() {
-            self.draw(index as u32, patch);
-        }
-        for (&item, &cell) in self.item.iter().zip(self.delta.cells()) {
-            if item != NOTHING {
-                self.sums[item as usize][1] += cell;
-            }
-        }
-        self.drawn.iter().filter_map(|&index| self.sight(index, &patches[index as usize])).collect()
+        self
     }
 
-    fn look_by_rays(&mut self, hierarchy: &PatchHierarchy, patches: &[Patch]) -> Vec<Sight> {
-        let cells = (&mut self.item[..], &mut self.depth[..]);
-        packets::fill(hierarchy, (self.eye, &self.frame), self.delta.resolution(), cells);
-        for (&item, &cell) in self.item.iter().zip(self.delta.cells()) {
-            if item == NOTHING {
-                continue;
-            }
-            let kept = &mut self.sums[item as usize][1];
-            if *kept == 0.0 {
-                self.drawn.push(item);
-            }
-            *kept += cell;
+    /// Takes what rays found for drawn. Most patches then cover no cell's centre, and those that do stand
+    /// for the others: their form factors are the plain sums of delta factors.
+    fn weigh_rays(&mut self) {
+        let Self { runs, drawn, prints, targets, .. } = self;
+        drawn.extend(runs.iter().map(|run| run.patch).filter(|&patch| patch != NOTHING));
+        drawn.sort_unstable();
+        drawn.dedup();
+        for &patch in &*drawn {
+            let corners = targets.outline(patch as usize);
+            let whole = point_to_polygon(self.eye, self.frame.row(2), &corners);
+            prints[patch as usize].covered = whole as f32;
         }
-        self.drawn.sort_unstable();
-        let sight = |&index: &u32| {
-            let patch = &patches[index as usize];
-            let delta = f64::from(self.sums[index as usize][1]);
-            let front = (self.eye - patch.corners[0]).dot(patch.normal) > 0.0;
-            let whole = point_to_polygon(self.eye, self.frame.row(2), &patch.corners);
-            let visible = if whole > 0.0 { delta / whole } else { 1.0 };
-            Sight { patch: PatchId(index), visible, delta, front }
-        };
-        self.drawn.iter().map(sight).collect()
+    }
+
+    /// The patches seen, in their order.
+    pub fn sights(&self) -> impl Iterator<Item = Sight> + '_ {
+        self.drawn.iter().filter_map(|&index| self.sight(index))
+    }
+
+    /// The patch that each cell sees: the top face's rows, then those of the four half faces.
+    pub fn items(&self) -> impl Iterator<Item = Option<PatchId>> + '_ {
+        let items = self.cells.rows().flat_map(|(.., items)| items);
+        items.map(|&item| (item != NOTHING).then_some(PatchId(item)))
     }
 
     /// Share, 0..=1, of a convex part of a patch that nothing hides.
-    pub fn visible_share(&mut self, patch: PatchId, corners: &[DVec3], normal: DVec3) -> f64 {
-        let (mut covered, mut kept) = (0.0, 0.0);
-        let resolution = self.delta.resolution();
-        let mut raster = std::mem::replace(&mut self.raster, Raster::new(0));
-        raster.project((self.eye, &self.frame), (corners, normal), |footprint| {
-            for (row, columns) in footprint.rows(resolution) {
-                covered += self.delta.sum(row, columns.clone());
-                let cells = row * resolution + columns.start..row * resolution + columns.end;
-                for (&item, &cell) in
-                    self.item[cells.clone()].iter().zip(&self.delta.cells()[cells])
-                {
-                    kept += if item == patch.0 { cell } else { 0.0 };
-                }
-            }
-        });
-        self.raster = raster;
-        if covered > 0.0 {
-            return f64::from(kept / covered).min(1.0);
-        }
-        self.glimpse(corners)
+    pub fn visible_share(&self, patch: PatchId, corners: &[DVec3]) -> f64 {
+        self.arch.dispatch(Share { hemicube: self, patch, corners })
     }
 
     /// Sum of the delta factors of cells that see something not deeper than `depth`, m.
     pub fn share_within(&self, depth: f64) -> f64 {
         let nearness = (1.0 / depth) as f32;
-        let cells = self.depth.iter().zip(self.delta.cells());
-        cells.filter(|(cell, _)| **cell > nearness).map(|(_, &cell)| f64::from(cell)).sum()
+        let row = |(face, row, _): (usize, usize, &[u32])| {
+            let cells = self.cells.depths(face, row).iter().zip(self.delta.row(face, row));
+            cells
+                .filter(|(cell, _)| **cell > nearness)
+                .map(|(_, &cell)| f64::from(cell))
+                .sum::<f64>()
+        };
+        self.cells.rows().map(row).sum()
     }
 
     /// Sum of the delta factors of cells that see nothing.
     pub fn escaping(&self) -> f64 {
-        let cells = self.item.iter().zip(self.delta.cells());
-        cells.filter(|(item, _)| **item == NOTHING).map(|(_, &cell)| f64::from(cell)).sum()
+        let runs = self.runs.iter().filter(|run| run.patch == NOTHING);
+        runs.map(|&run| f64::from(self.sum(run))).sum()
     }
 
-    fn draw(&mut self, index: u32, patch: &Patch) {
-        let height = (self.eye - patch.corners[0]).dot(patch.normal);
-        // The back of a double-sided polygon has a patch of its own.
-        if height.abs() < HAIR || (patch.two_sided && height < 0.0) {
-            return;
+    #[inline(always)]
+    fn fill<S: Simd>(&mut self, simd: S) {
+        self.cells.clear();
+        self.drawn.clear();
+        if let Some(hierarchy) = self.rays {
+            // What is seen is known from the runs alone.
+            self.prints.fill(Print { last: NOTHING, ..Print::default() });
+            return packets::fill(hierarchy, (self.eye, &self.frame), &mut self.cells);
         }
-        let recess = if height < 0.0 { RECESS } else { 1.0 };
-        let resolution = self.delta.resolution();
-        let (depths, items, delta) = (&mut self.depth, &mut self.item, self.delta);
-        let mut covered = 0.0;
-        let mut drawn = false;
-        let shape = (patch.corners.as_slice(), patch.normal);
-        self.raster.project((self.eye, &self.frame), shape, |footprint| {
-            drawn = true;
-            for (row, columns) in footprint.rows(resolution) {
-                covered += delta.sum(row, columns.clone());
-                let [first, step] = footprint.nearness(row, columns.start).map(|n| n * recess);
-                let cells = row * resolution + columns.start..row * resolution + columns.end;
-                let cells = depths[cells.clone()].iter_mut().zip(&mut items[cells]);
-                for (column, (depth, item)) in cells.enumerate() {
-                    let nearness = first + step * column as f32;
-                    let nearer = nearness > *depth;
-                    *depth = if nearer { nearness } else { *depth };
-                    *item = if nearer { index } else { *item };
+        let Self { targets, delta, eye, frame, .. } = *self;
+        let Self { raster, corners, cells, prints, drawn, .. } = self;
+        targets.for_each_above(
+            (eye, &frame),
+            corners,
+            #[inline(always)]
+            |patch, corners, range| {
+                let height = targets.height(patch, eye);
+                // The back of a double-sided polygon has a patch of its own.
+                if height.abs() < HAIR || (targets.two_sided(patch) && height < 0.0) {
+                    return;
                 }
-            }
-        });
-        if drawn {
-            self.drawn.push(index);
-            self.sums[index as usize][0] = covered;
-        }
+                let ink = (patch as u32, if height < 0.0 { RECESS } else { 1.0 }, delta);
+                let shape = (corners, range, plane(&frame, targets.normal(patch), height));
+                let mut covered = None;
+                raster.project(
+                    delta.resolution(),
+                    shape,
+                    #[inline(always)]
+                    |footprint| {
+                        *covered.get_or_insert(0.0) += cells.draw(simd, footprint, ink);
+                    },
+                );
+                if let Some(covered) = covered {
+                    drawn.push(patch as u32);
+                    prints[patch] = Print { covered, kept: 0.0, last: NOTHING };
+                }
+            },
+        );
     }
 
-    fn sight(&self, index: u32, patch: &Patch) -> Option<Sight> {
-        let [covered, kept] = self.sums[index as usize].map(f64::from);
-        let front = (self.eye - patch.corners[0]).dot(patch.normal) > 0.0;
+    #[inline(always)]
+    fn sum_up(&mut self) {
+        let Self { cells, runs, prints, delta, .. } = self;
+        runs.clear();
+        cells.for_each_run(
+            #[inline(always)]
+            |mut run| {
+                if let Some(print) = prints.get_mut(run.patch as usize) {
+                    let row = delta.sums(run.face.into(), run.row.into());
+                    let [from, to] = run.columns.map(usize::from);
+                    print.kept += row[to] - row[from];
+                    run.before = std::mem::replace(&mut print.last, runs.len() as u32);
+                }
+                runs.push(run);
+            },
+        );
+    }
+
+    #[inline(always)]
+    fn sum(&self, run: Run) -> f32 {
+        let row = self.delta.sums(run.face.into(), run.row.into());
+        row[usize::from(run.columns[1])] - row[usize::from(run.columns[0])]
+    }
+
+    fn sight(&self, index: u32) -> Option<Sight> {
+        let Print { covered, kept, .. } = self.prints[index as usize];
+        let [covered, kept] = [covered, kept].map(f64::from);
+        let front = self.targets.height(index as usize, self.eye) > 0.0;
         let visible = match covered {
-            0.0 if front => self.glimpse(&patch.corners),
+            0.0 if front => self.glimpse(self.targets.middle(index as usize)),
             0.0 => 0.0,
+            covered if self.rays.is_some() => kept / covered,
             covered => (kept / covered).min(1.0),
         };
         (visible > 0.0).then_some(Sight { patch: PatchId(index), visible, delta: kept, front })
     }
 
+    #[inline(always)]
+    fn share<S: Simd>(&self, simd: S, patch: PatchId, polygon: &[DVec3]) -> Option<f64> {
+        let mut corners = Corners::default();
+        let point = |axis: usize| polygon.iter().map(move |corner| corner[axis]);
+        let points: [smallvec::SmallVec<[f64; 16]>; 3] =
+            std::array::from_fn(|axis| point(axis).collect());
+        corners.place(points.each_ref().map(|list| list.as_slice()), self.eye, &self.frame);
+        let (mut covered, mut kept) = (0.0, 0.0);
+        let shape = (&corners, 0..polygon.len(), Vec3::ZERO);
+        Raster::default().project(
+            self.delta.resolution(),
+            shape,
+            #[inline(always)]
+            |footprint| {
+                let face = footprint.face;
+                footprint.for_each_row(
+                    simd,
+                    #[inline(always)]
+                    |row, from, to| {
+                        let sums = self.delta.sums(face, row);
+                        covered += sums[to] - sums[from];
+                        let items = &self.cells.items(face, row)[from..to];
+                        for (item, cell) in items.iter().zip(&self.delta.row(face, row)[from..to]) {
+                            kept += if *item == patch.0 { *cell } else { 0.0 };
+                        }
+                    },
+                );
+            },
+        );
+        (covered > 0.0).then(|| f64::from(kept / covered).min(1.0))
+    }
+
     /// Whether the middle of a polygon that covers no cell's centre is seen, 0 or 1.
-    fn glimpse(&self, corners: &[DVec3]) -> f64 {
-        let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
+    fn glimpse(&self, middle: DVec3) -> f64 {
         let above = (middle - self.eye).dot(self.frame.row(2)) > 0.0;
         f64::from(u8::from(above && !self.occluders.blocks(self.eye, middle)))
     }
 }
 
-impl Footprint<'_> {
-    /// The rows covered, counted over all faces, and their columns.
-    fn rows(
-        &self,
-        resolution: usize,
-    ) -> impl Iterator<Item = (usize, std::ops::Range<usize>)> + '_ {
-        self.spans.iter().enumerate().filter_map(move |(row, &[from, to])| {
-            let columns = first_centre(from, resolution)..first_centre(to, resolution);
-            (!columns.is_empty()).then_some((self.first_row + row, columns))
-        })
-    }
+/// The work of a look, to be compiled for several processors.
+struct Look<'h, 'a>(&'h mut Hemicube<'a>);
 
-    /// Reciprocal depth at a cell's centre, and what it grows by from column to column.
-    fn nearness(&self, row: usize, column: usize) -> [f32; 2] {
-        let [origin, by_column, by_row] = self.depth;
-        [origin + by_column * column as f32 + by_row * (row - self.first_row) as f32, by_column]
+impl WithSimd for Look<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        self.0.fill(simd);
+        self.0.sum_up();
+    }
+}
+
+struct Share<'h, 'a> {
+    hemicube: &'h Hemicube<'a>,
+    patch: PatchId,
+    corners: &'h [DVec3],
+}
+
+impl WithSimd for Share<'_, '_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        self.hemicube.share(simd, self.patch, self.corners).unwrap_or_else(|| {
+            let count = self.corners.len() as f64;
+            self.hemicube.glimpse(self.corners.iter().sum::<DVec3>() / count)
+        })
     }
 }
 
@@ -255,4 +326,10 @@ pub(super) fn frame(normal: DVec3, turn: f64) -> DMat3 {
     let (sine, cosine) = turn.sin_cos();
     let (x, y) = normal.any_orthonormal_pair();
     DMat3::from_cols(x * cosine + y * sine, y * cosine - x * sine, normal).transpose()
+}
+
+/// The vector n with n · p = 1 on a plane above which the eye, the origin, is at this height, m.
+#[inline(always)]
+fn plane(frame: &DMat3, normal: DVec3, height: f64) -> Vec3 {
+    (*frame * normal / -height).as_vec3()
 }

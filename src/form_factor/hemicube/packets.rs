@@ -12,8 +12,9 @@
 
 use glam::{DMat3, DVec3, Vec3};
 
+use super::cells::Cells;
 use crate::visibility::PatchHierarchy;
-use crate::visibility::packet::{Packet, RAYS};
+use crate::visibility::packet::{NOTHING, Packet, RAYS};
 
 /// Cells of a packet: columns and rows of a small block.
 const BLOCK: [usize; 2] = [4, RAYS / 4];
@@ -37,18 +38,11 @@ struct Face {
     rows: usize,
 }
 
-/// Finds what each cell of a hemicube sees: patch, or `u32::MAX`, and reciprocal depth, or 0.
-///
-/// `frame` maps to the hemicube's axes; cells are in the order of [`super::DeltaFactors`].
-pub(super) fn fill(
-    hierarchy: &PatchHierarchy,
-    (eye, frame): (DVec3, &DMat3),
-    resolution: usize,
-    (item, depth): (&mut [u32], &mut [f32]),
-) {
+/// Finds what each cell of a hemicube sees. `frame` maps to the hemicube's axes.
+pub(super) fn fill(hierarchy: &PatchHierarchy, (eye, frame): (DVec3, &DMat3), cells: &mut Cells) {
+    let resolution = cells.resolution();
     let mut packets = Vec::new();
-    let mut first_row = 0;
-    for face in FACES {
+    for (number, face) in FACES.into_iter().enumerate() {
         let face = Face::new(face, frame, resolution);
         for row in (0..face.rows).step_by(BLOCK[1]) {
             packets.clear();
@@ -56,17 +50,14 @@ pub(super) fn fill(
             packets.extend(columns.map(|column| face.packet(column, row)));
             hierarchy.cast(eye, &mut packets);
             for (block, packet) in packets.iter().enumerate() {
-                for ray in 0..RAYS {
+                for ray in (0..RAYS).filter(|&ray| packet.patch[ray] != NOTHING) {
                     let (column, row) = cell(block * BLOCK[0], row, ray);
                     if column < resolution && row < face.rows {
-                        let cell = (first_row + row) * resolution + column;
-                        item[cell] = packet.patch[ray];
-                        depth[cell] = packet.nearness[ray];
+                        cells.put(number, [row, column], (packet.patch[ray], packet.nearness[ray]));
                     }
                 }
             }
         }
-        first_row += face.rows;
     }
 }
 
@@ -106,7 +97,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::form_factor::hemicube::{DeltaFactors, Hemicube};
+    use crate::form_factor::hemicube::{DeltaFactors, Hemicube, Targets};
     use crate::mesh::Mesh;
     use crate::scene::load;
     use crate::settings::{Length, Settings};
@@ -121,24 +112,27 @@ mod tests {
         let mesh = Mesh::new(&surfaces, &Settings { patch_size, ..Settings::draft() });
         let (occluders, hierarchy) =
             (Occluders::new(&surfaces), PatchHierarchy::new(&mesh.patches));
+        let targets = Targets::new(&mesh.patches);
         for resolution in [64, 66] {
             let delta = DeltaFactors::new(resolution);
-            let mut hemicube = Hemicube::new(&delta, &occluders);
-            let cells = delta.cells().len();
-            let (mut item, mut depth, mut differing) = (vec![0; cells], vec![0.0; cells], 0);
+            let mut hemicube = Hemicube::new(&delta, &targets, &occluders);
+            let (mut all, mut differing) = (0, 0);
             for patch in mesh.patches.iter().step_by(17) {
                 let eye = patch.corners.iter().sum::<DVec3>() / patch.corners.len() as f64;
-                hemicube.look(&mesh.patches, (eye, patch.normal), 0.3);
-                let into = (&mut item[..], &mut depth[..]);
-                fill(&hierarchy, (eye, &hemicube.frame), resolution, into);
-                for cell in 0..cells {
-                    let near = hemicube.depth[cell];
-                    let same = item[cell] == hemicube.item[cell];
-                    let close = (depth[cell] - near).abs() <= 1e-4 * near;
-                    differing += usize::from(!same || !close);
+                hemicube.look((eye, patch.normal), 0.3);
+                let mut cells = Cells::new(resolution);
+                fill(&hierarchy, (eye, &hemicube.frame), &mut cells);
+                for (face, row, items) in cells.rows() {
+                    let drawn = hemicube.cells.items(face, row);
+                    let depths =
+                        cells.depths(face, row).iter().zip(hemicube.cells.depths(face, row));
+                    for ((ray, drawn), (depth, near)) in items.iter().zip(drawn).zip(depths) {
+                        let close = (depth - near).abs() <= 1e-4 * near;
+                        differing += usize::from(ray != drawn || !close);
+                        all += 1;
+                    }
                 }
             }
-            let all = cells * mesh.patches.len().div_ceil(17);
             assert!(differing * 1000 <= all, "{differing} of {all} cells differ");
             assert!(all > 300_000, "too few cells to tell: {all}");
         }

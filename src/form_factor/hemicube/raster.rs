@@ -1,183 +1,194 @@
-//! Projection of polygons on the five faces, and the cells whose centres they cover.
+//! The cells of a face whose centres a polygon covers, a register of rows at a time.
 
-use glam::{DMat3, DVec3, Vec3};
+use glam::Vec3;
+use pulp::Simd;
 use smallvec::SmallVec;
 
-/// A convex polygon in the frame of a hemicube whose eye is the origin and whose normal is +z.
-type Local = SmallVec<[Vec3; 8]>;
+use super::clip::{Corners, FACES, Face, Part, is_below};
+
+/// Most numbers that a register holds.
+pub(super) const LANES: usize = 16;
+
+/// Above this power of two 32-bit floating point numbers are whole: adding it rounds.
+const WHOLE: f32 = 8_388_608.0;
 
 /// Where a polygon covers a face.
 pub(super) struct Footprint<'a> {
-    /// First row, counted over all faces.
-    pub(super) first_row: usize,
-    /// Columns from the first to before the second, one pair a row; may be empty.
-    pub(super) spans: &'a [[f32; 2]],
-    /// Reciprocal depth at (column, row) is `depth[0] + depth[1] column + depth[2] (row - first_row)`.
+    /// Number of the face.
+    pub(super) face: usize,
+    /// Reciprocal depth at a cell's centre is `depth[0] + depth[1] column + depth[2] row`.
     pub(super) depth: [f32; 3],
+    resolution: usize,
+    edges: &'a [Edge],
+    /// First and last but one row whose centre is covered.
+    rows: [i32; 2],
 }
 
-/// A face of the hemicube, as a view with coordinates (a, b, w) of depth w.
-struct Face {
-    /// Which of x, y, z are a, b and w.
-    axes: [usize; 3],
-    /// Whether w looks along or against its axis.
-    sign: f32,
-    /// Smallest b / w: -1 for the top, 0 for the half faces.
-    lowest: f32,
+/// An edge of a polygon, in cells, and the rows from the first to before the second whose centres it
+/// crosses.
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    start: [f32; 2],
+    slope: f32,
+    rows: [i32; 2],
 }
-
-const FACES: [Face; 5] = [
-    Face { axes: [0, 1, 2], sign: 1.0, lowest: -1.0 },
-    Face { axes: [1, 2, 0], sign: 1.0, lowest: 0.0 },
-    Face { axes: [1, 2, 0], sign: -1.0, lowest: 0.0 },
-    Face { axes: [0, 2, 1], sign: 1.0, lowest: 0.0 },
-    Face { axes: [0, 2, 1], sign: -1.0, lowest: 0.0 },
-];
 
 /// Scratch space for clipping and scan conversion.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Raster {
-    resolution: usize,
-    spans: Vec<[f32; 2]>,
-    clipped: [Vec<Vec3>; 2],
+    clipped: [Part; 2],
+    edges: SmallVec<[Edge; 16]>,
 }
 
 impl Raster {
-    pub(super) fn new(resolution: usize) -> Self {
-        Self { resolution, spans: vec![[0.0; 2]; resolution], clipped: [Vec::new(), Vec::new()] }
-    }
-
-    /// Hands the footprint of a polygon on each face it covers to `draw`. `frame` maps to the
-    /// hemicube's axes.
+    /// Hands the footprint of a polygon on each face it covers to `draw`; in its plane, `plane` · p = 1.
+    #[inline(always)]
     pub(super) fn project(
         &mut self,
-        (eye, frame): (DVec3, &DMat3),
-        (corners, normal): (&[DVec3], DVec3),
-        mut draw: impl FnMut(Footprint<'_>),
+        resolution: usize,
+        (corners, range, plane): (&Corners, std::ops::Range<usize>, Vec3),
+        mut draw: impl FnMut(&Footprint<'_>),
     ) {
-        let local: Local = corners.iter().map(|&c| (*frame * (c - eye)).as_vec3()).collect();
-        if local.iter().all(|corner| corner.z <= 0.0) {
+        let sides = corners.sides(range.clone());
+        if is_below(sides) {
             return;
         }
-        let plane = (*frame * normal / (corners[0] - eye).dot(normal)).as_vec3();
-        let low = local.iter().copied().fold(Vec3::INFINITY, Vec3::min);
-        let high = local.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
-        let mut first_row = 0;
-        for face in &FACES {
-            if face.faces(low, high) && face.clip(&local, &mut self.clipped) {
-                let rows = self.scan(face);
-                let depth = self.depth(face, plane, rows.start);
-                let spans = &self.spans[rows.clone()];
-                draw(Footprint { first_row: first_row + rows.start, spans, depth });
+        for (number, face) in FACES.iter().enumerate() {
+            if face.misses(sides) {
+                continue;
             }
-            first_row += face.rows(self.resolution);
+            let seen = corners.seen_by(face, range.clone());
+            let rows = if !face.cuts(sides) {
+                trace(seen, (face, resolution), &mut self.edges)
+            } else if face.clip(seen, &mut self.clipped) {
+                trace(self.clipped[0].iter().copied(), (face, resolution), &mut self.edges)
+            } else {
+                continue;
+            };
+            let depth = face.by_cell(plane, resolution);
+            draw(&Footprint { face: number, depth, resolution, edges: &self.edges, rows });
         }
-    }
-
-    /// Fills the spans of the rows whose centres the clipped polygon crosses.
-    fn scan(&mut self, face: &Face) -> std::ops::Range<usize> {
-        let rows = face.rows(self.resolution);
-        let [polygon, _] = &self.clipped;
-        let at: SmallVec<[[f32; 2]; 8]> =
-            polygon.iter().map(|&p| face.place(p, self.resolution)).collect();
-        let low = at.iter().map(|p| p[1]).fold(f32::INFINITY, f32::min);
-        let high = at.iter().map(|p| p[1]).fold(f32::NEG_INFINITY, f32::max);
-        let (first, last) = (first_centre(low, rows), first_centre(high, rows));
-        self.spans[first..last].fill([f32::INFINITY, f32::NEG_INFINITY]);
-        let mut from = at[at.len() - 1];
-        for &to in &at {
-            let (lower, upper) = if from[1] < to[1] { (from, to) } else { (to, from) };
-            let slope = (upper[0] - lower[0]) / (upper[1] - lower[1]);
-            for row in first_centre(lower[1], rows)..first_centre(upper[1], rows) {
-                let x = lower[0] + slope * (row as f32 + 0.5 - lower[1]);
-                let span = &mut self.spans[row];
-                *span = [span[0].min(x), span[1].max(x)];
-            }
-            from = to;
-        }
-        first..last
-    }
-
-    /// Coefficients of the reciprocal depth over columns and rows.
-    fn depth(&self, face: &Face, plane: Vec3, first_row: usize) -> [f32; 3] {
-        // On the plane n·p = 1, 1/w = nₐ a/w + n_b b/w + n_w.
-        let n = face.look(plane);
-        let step = 2.0 / self.resolution as f32;
-        let origin =
-            n.x * (0.5 * step - 1.0) + n.y * ((first_row as f32 + 0.5) * step + face.lowest) + n.z;
-        [origin, n.x * step, n.y * step]
     }
 }
 
-/// First row or column whose centre is beyond `position`.
-pub(super) fn first_centre(position: f32, count: usize) -> usize {
+/// Lists the edges of a polygon that a face sees whole; returns the rows they cross.
+#[inline(always)]
+fn trace(
+    polygon: impl Iterator<Item = Vec3>,
+    (face, resolution): (&Face, usize),
+    edges: &mut SmallVec<[Edge; 16]>,
+) -> [i32; 2] {
+    let most = face.rows(resolution) as i32;
+    let half = resolution as f32 / 2.0;
+    edges.clear();
+    let mut rows = [i32::MAX, 0];
+    let mut corners = polygon.map(
+        #[inline(always)]
+        |corner| corner_at(face, corner, half, most),
+    );
+    let Some(start) = corners.next() else { return [0, 0] };
+    let mut from = start;
+    for to in corners.chain(std::iter::once(start)) {
+        let (lower, upper) = if from.0[1] < to.0[1] { (from, to) } else { (to, from) };
+        if lower.1 < upper.1 {
+            let slope = (upper.0[0] - lower.0[0]) / (upper.0[1] - lower.0[1]);
+            edges.push(Edge { start: lower.0, slope, rows: [lower.1, upper.1] });
+        }
+        rows = [rows[0].min(to.1), rows[1].max(to.1)];
+        from = to;
+    }
+    rows
+}
+
+/// Where a point is on a face, in cells, and the first row whose centre is beyond it.
+#[inline(always)]
+fn corner_at(face: &Face, p: Vec3, half: f32, most: i32) -> ([f32; 2], i32) {
+    let scale = half / p.z;
+    let at = [(p.x + p.z) * scale, (p.y - face.lowest * p.z) * scale];
+    (at, first_centre(at[1], most))
+}
+
+impl Footprint<'_> {
+    /// Calls `visit` with each row of the face and its columns from the first to before the second.
+    #[inline(always)]
+    pub(super) fn for_each_row<S: Simd>(
+        &self,
+        simd: S,
+        mut visit: impl FnMut(usize, usize, usize),
+    ) {
+        let [mut first, end] = self.rows.map(|row| row as usize);
+        while first < end {
+            let [from, to] = self.columns(simd, first);
+            for lane in 0..S::F32_LANES.min(end - first) {
+                if from[lane] < to[lane] {
+                    visit(first + lane, from[lane] as usize, to[lane] as usize);
+                }
+            }
+            first += S::F32_LANES;
+        }
+    }
+
+    /// Columns from the first to before the second in as many rows from `first` on as a register holds.
+    #[inline(always)]
+    fn columns<S: Simd>(&self, simd: S, first: usize) -> [[u32; LANES]; 2] {
+        let row = count_up(simd, first);
+        let centre = simd.add_f32s(row, simd.splat_f32s(0.5));
+        let mut low = simd.splat_f32s(f32::INFINITY);
+        let mut high = simd.splat_f32s(f32::NEG_INFINITY);
+        for edge in self.edges {
+            let [x, y] = edge.start.map(|value| simd.splat_f32s(value));
+            let run = simd.mul_f32s(simd.splat_f32s(edge.slope), simd.sub_f32s(centre, y));
+            let x = simd.add_f32s(x, run);
+            let [start, end] = edge.rows.map(|row| simd.splat_f32s(row as f32));
+            let crosses = simd.and_m32s(
+                simd.greater_than_or_equal_f32s(row, start),
+                simd.less_than_f32s(row, end),
+            );
+            let further = |mask| simd.and_m32s(crosses, mask);
+            low = simd.select_f32s(further(simd.less_than_f32s(x, low)), x, low);
+            high = simd.select_f32s(further(simd.greater_than_f32s(x, high)), x, high);
+        }
+        let mut columns = [[0; LANES]; 2];
+        for (columns, ends) in columns.iter_mut().zip([low, high]) {
+            // The nearest whole number to a position is the first column whose centre is beyond it.
+            let ends = rounded(simd, ends, self.resolution as f32);
+            S::as_mut_simd_u32s(columns).0[0] = ends;
+        }
+        columns
+    }
+
+    /// Reciprocal depth at the first cell of a row, and what it grows by from column to column.
+    #[inline(always)]
+    pub(super) fn nearness(&self, row: usize) -> [f32; 2] {
+        let [origin, by_column, by_row] = self.depth;
+        [origin + by_row * row as f32, by_column]
+    }
+}
+
+/// First row whose centre is beyond `position`.
+#[inline(always)]
+fn first_centre(position: f32, count: i32) -> i32 {
     // Casting saturates, and rounds towards zero.
-    ((position + 0.5) as usize).min(count)
+    ((position + 0.5) as i32).clamp(0, count)
 }
 
-impl Face {
-    fn rows(&self, resolution: usize) -> usize {
-        if self.lowest < 0.0 { resolution } else { resolution / 2 }
-    }
+/// The whole numbers from 0 to `most` nearest to the values.
+#[inline(always)]
+pub(super) fn rounded<S: Simd>(simd: S, values: S::f32s, most: f32) -> S::u32s {
+    let [zero, most, whole] = [0.0, most, WHOLE].map(
+        #[inline(always)]
+        |x| simd.splat_f32s(x),
+    );
+    let value = simd.select_f32s(simd.greater_than_f32s(values, zero), values, zero);
+    let value = simd.select_f32s(simd.less_than_f32s(value, most), value, most);
+    let value = simd.transmute_u32s_f32s(simd.add_f32s(value, whole));
+    simd.sub_u32s(value, simd.transmute_u32s_f32s(whole))
+}
 
-    fn look(&self, p: Vec3) -> Vec3 {
-        let p = p.to_array();
-        Vec3::new(p[self.axes[0]], p[self.axes[1]], p[self.axes[2]] * self.sign)
-    }
-
-    /// False only if a box is nowhere in front of the face.
-    fn faces(&self, low: Vec3, high: Vec3) -> bool {
-        self.look(if self.sign > 0.0 { high } else { low }).z > 0.0
-    }
-
-    /// How far a point of the view is inside of each of the four planes through the eye that bound
-    /// the face.
-    fn depths(&self, p: Vec3) -> [f32; 4] {
-        [p.z + p.x, p.z - p.x, p.y - self.lowest * p.z, p.z - p.y]
-    }
-
-    /// Position in cells of a point of the view in front of the eye.
-    fn place(&self, p: Vec3, resolution: usize) -> [f32; 2] {
-        let scale = resolution as f32 / 2.0 / p.z;
-        [(p.x + p.z) * scale, (p.y - self.lowest * p.z) * scale]
-    }
-
-    /// Leaves the part of a polygon that the face sees in the first of the buffers; false if there is none.
-    fn clip(&self, polygon: &[Vec3], [clipped, spare]: &mut [Vec<Vec3>; 2]) -> bool {
-        clipped.clear();
-        clipped.extend(polygon.iter().map(|&corner| self.look(corner)));
-        let (mut outside_all, mut outside_any) = (0b1111, 0);
-        for &corner in clipped.iter() {
-            let depths = self.depths(corner);
-            let outside = (0..4).fold(0, |bits, k| bits | u32::from(depths[k] <= 0.0) << k);
-            outside_all &= outside;
-            outside_any |= outside;
-        }
-        if outside_all != 0 {
-            return false;
-        }
-        for side in (0..4).filter(|side| outside_any >> side & 1 == 1) {
-            self.cut(side, clipped, spare);
-            std::mem::swap(clipped, spare);
-        }
-        // Only a polygon that runs through the eye itself has corners without depth.
-        clipped.len() >= 3 && clipped.iter().all(|p| p.z > 0.0)
-    }
-
-    /// The part of a polygon inside of one of the planes that bound the face.
-    fn cut(&self, side: usize, polygon: &[Vec3], inside: &mut Vec<Vec3>) {
-        inside.clear();
-        let Some(&last) = polygon.last() else { return };
-        let (mut from, mut depth) = (last, self.depths(last)[side]);
-        for &to in polygon {
-            let next = self.depths(to)[side];
-            if depth * next < 0.0 {
-                inside.push(from.lerp(to, depth / (depth - next)));
-            }
-            if next >= 0.0 {
-                inside.push(to);
-            }
-            (from, depth) = (to, next);
-        }
-    }
+/// The whole numbers from `first` on.
+#[inline(always)]
+pub(super) fn count_up<S: Simd>(simd: S, first: usize) -> S::f32s {
+    const UP: [f32; LANES] =
+        [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0];
+    simd.add_f32s(simd.splat_f32s(first as f32), S::as_simd_f32s(&UP).0[0])
 }
