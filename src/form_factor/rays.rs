@@ -148,6 +148,11 @@ impl<'a> Rays<'a> {
         self.met.drain(..).map(sight).collect()
     }
 
+    /// Delta form factor of each ray.
+    pub fn delta(&self) -> f64 {
+        self.sphere.delta()
+    }
+
     /// Share of the last look's rays that met nothing.
     pub fn escaping(&self) -> f64 {
         self.escaping as f64 * self.sphere.delta()

@@ -2,13 +2,19 @@
 //! `form-factors.md` in the build directory.
 
 use std::fmt::Write;
+use std::ops::ControlFlow;
 use std::path::Path;
 
 use glam::DVec3;
 use radiosity::form_factor::contour::point_to_polygon;
-use radiosity::form_factor::pair::visible_exchange;
+use radiosity::form_factor::pair::{exchange, visible_exchange};
+use radiosity::form_factor::{Method, assemble, factors_at};
+use radiosity::mesh::{Mesh, Patch};
 use radiosity::visibility::{Facet, Occluders};
+use radiosity::{Length, Settings, faces_of};
 use serde::Deserialize;
+
+use crate::common::Stage;
 
 type Corners = Vec<DVec3>;
 
@@ -105,21 +111,115 @@ fn by_contour(case: &Case) -> f64 {
     }
 }
 
+/// The polygons as a scene of one patch each.
+fn patches_of(polygons: &[&Corners]) -> (Vec<Patch>, Occluders) {
+    let mut stage = Stage::default();
+    let grey = stage.material(0.5, 0.0);
+    for polygon in polygons {
+        stage.polygon(grey, polygon);
+    }
+    let surfaces = faces_of(&stage.scene);
+    let whole = Settings { patch_size: Length::OfScene(2.0), ..Settings::draft() };
+    let mesh = Mesh::new(&surfaces, &whole);
+    (mesh.patches, Occluders::new(&surfaces))
+}
+
+/// From the receiver's centre by another method; the source is the first patch.
+fn from_centre(case: &Case, method: Method) -> f64 {
+    let polygons: Vec<&Corners> = std::iter::once(&case.source).chain(&case.blockers).collect();
+    let (patches, occluders) = patches_of(&polygons);
+    let place = match &case.receiver {
+        Receiver::Polygon { polygon } => {
+            let receiver: Corners = polygon.iter().copied().map(DVec3::from).collect();
+            (centroid(&receiver), normal(&receiver))
+        }
+        Receiver::Point { point, normal } => (DVec3::from(*point), DVec3::from(*normal)),
+    };
+    let surface = patches[0].surface;
+    let factors = factors_at(&patches, &occluders, method, place);
+    patches.iter().zip(factors).filter(|(p, _)| p.surface == surface).map(|(_, f)| f).sum()
+}
+
+fn centroid(corners: &[DVec3]) -> DVec3 {
+    let triangles = (1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]]);
+    let weighted = triangles.map(|[a, b, c]| ((a + b + c) / 3.0, (b - a).cross(c - a).length()));
+    let (sum, total) =
+        weighted.fold((DVec3::ZERO, 0.0), |(sum, total), (p, w)| (sum + p * w, total + w));
+    sum / total
+}
+
+/// What hemicubes and rays may err by: a third of a plain hemicube's error.
+fn allowed(case: &Case) -> f64 {
+    /// Exact formulas have rounding, too.
+    const ROUNDING: f64 = 1e-9;
+    case.hemicube_256.unwrap_or(0.0) / 3.0 + ROUNDING
+}
+
 #[test]
 fn every_case_has_its_value_by_every_method() {
-    let mut table = "| case | value | contour |\n|---|---|---|\n".to_owned();
+    let mut table =
+        "| case | value | contour | from the centre | hemicube 512 | rays 1 M | allowed |\n\
+                     |---|---|---|---|---|---|---|\n"
+            .to_owned();
     let mut wrong = Vec::new();
     for case in suite().cases {
-        let contour = by_contour(&case);
+        let contour = by_contour(&case) - case.value;
         let tolerance = if case.blockers.is_empty() { 1e-6 } else { 1e-4 };
-        if (contour - case.value).abs() > tolerance {
-            wrong.push(format!("{} contour {contour} for {}", case.id, case.value));
+        if contour.abs() > tolerance {
+            wrong.push(format!("{} by contour: {contour:+e}", case.id));
         }
-        writeln!(table, "| {} | {:.9} | {:+.1e} |", case.id, case.value, contour - case.value)
-            .unwrap();
+        write!(table, "| {} | {:.9} | {contour:+.1e} |", case.id, case.value).unwrap();
+        if let Some(centre) = case.centre_value {
+            let methods = [Method::Hemicube(512), Method::Rays(1_000_000)];
+            let errors = methods.map(|method| from_centre(&case, method) - centre);
+            for (error, name) in errors.iter().zip(["hemicube", "rays"]) {
+                if error.abs() > allowed(&case) {
+                    wrong.push(format!("{} by {name}: {error:+e}", case.id));
+                }
+            }
+            let [cells, rays] = errors;
+            write!(table, " {centre:.9} | {cells:+.1e} | {rays:+.1e} | {:.1e} |", allowed(&case))
+                .unwrap();
+        }
+        table.push('\n');
     }
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("form-factors.md");
     std::fs::write(&path, &table).unwrap();
     println!("{table}");
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn endless_strips_have_the_factors_of_crossed_strings() {
+    for strip in suite().strips {
+        let polygon = |[from, to]: [[f64; 2]; 2], half: f64| {
+            let at = |[x, z]: [f64; 2], y: f64| DVec3::new(x, y, z);
+            vec![at(from, -half), at(to, -half), at(to, half), at(from, half)]
+        };
+        let (receiver, source) = (polygon(strip.receiver, 0.5), polygon(strip.source, 2e3));
+        let exchange = exchange(facet(&receiver), facet(&source));
+        let factor = exchange / area(&receiver);
+        assert!((factor - strip.value).abs() < 1e-6, "{}: {factor} for {}", strip.id, strip.value);
+    }
+}
+
+#[test]
+fn enclosures_have_their_matrices_by_every_method() {
+    for enclosure in suite().enclosures {
+        let (patches, occluders) = patches_of(&enclosure.patches.iter().collect::<Vec<_>>());
+        assert_eq!(patches.len(), enclosure.patches.len(), "{}: whole polygons", enclosure.id);
+        let methods =
+            [(Method::Contour, 1e-4), (Method::Hemicube(128), 0.02), (Method::Rays(4096), 0.02)];
+        for (method, tolerance) in methods {
+            let go_on = |_| ControlFlow::Continue(());
+            let factors = assemble(&patches, &occluders, method, go_on).factors;
+            for (i, row) in enclosure.factors.iter().enumerate() {
+                for (j, &expected) in row.iter().enumerate() {
+                    let (factor, id) = (factors.get(i, j), &enclosure.id);
+                    let error = (factor - expected).abs();
+                    assert!(error < tolerance, "{id} {method:?} {i} {j}: {factor} for {expected}");
+                }
+            }
+        }
+    }
 }

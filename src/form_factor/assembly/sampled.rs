@@ -151,8 +151,9 @@ fn points(patch: &Patch, cells: u32) -> Vec<(DVec3, f64)> {
     points
 }
 
-/// Angle of the `index`-th view, radians: no two alike, so that their errors do not add up.
-fn turn(index: usize) -> f64 {
+/// Angle of the `index`-th view, radians: no two alike, so that their errors do not add up, and none
+/// along the walls of a room.
+pub(super) fn turn(index: usize) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    (index as f64 * GOLDEN).fract() * std::f64::consts::FRAC_PI_2
+    ((index as f64 + 0.5) * GOLDEN).fract() * std::f64::consts::FRAC_PI_2
 }

@@ -38,6 +38,9 @@ impl Look for Cells<'_> {
     }
 }
 
+/// A patch that should meet more rays than this and meets none is hidden.
+const FEW: f64 = 32.0;
+
 /// The view along rays: their shares, or exact form factors where nothing is hidden.
 pub(super) struct Sphere<'a> {
     patches: &'a [Patch],
@@ -57,16 +60,33 @@ impl<'a> Sphere<'a> {
 
 impl Look for Sphere<'_> {
     fn look(&mut self, eye: DVec3, normal: DVec3, turn: f64) -> Vec<Seen> {
-        let (patches, occluders) = (self.patches, self.occluders);
-        let horizon = HalfSpace::new(eye, normal);
-        let sights = self.rays.look(patches, (eye, normal), turn);
-        let seen = sights.into_iter().filter(|sight| sight.front).map(|sight| {
-            let patch = &patches[sight.patch.index()];
-            let above = horizon.clip(&patch.corners);
-            let clear = !above.is_empty() && !occluders.may_be_hidden(eye, &above, patch.normal);
-            let factor = if clear { point_to_polygon(eye, normal, &above) } else { sight.delta };
-            Seen { patch: sight.patch.0, factor, clear }
-        });
-        seen.collect()
+        let mut shares = vec![0.0; self.patches.len()];
+        for sight in self.rays.look(self.patches, (eye, normal), turn) {
+            shares[sight.patch.index()] = sight.delta;
+        }
+        let seen = |(index, patch)| self.seen((eye, normal), (index, patch), shares[index]);
+        self.patches.iter().enumerate().filter_map(seen).collect()
+    }
+}
+
+impl Sphere<'_> {
+    /// A patch that this share of the rays met, also if none did because it is small.
+    fn seen(
+        &self,
+        (eye, normal): (DVec3, DVec3),
+        (index, patch): (usize, &Patch),
+        share: f64,
+    ) -> Option<Seen> {
+        if HalfSpace::new(patch.corners[0], patch.normal).depth(eye) <= 0.0 {
+            return None;
+        }
+        let above = HalfSpace::new(eye, normal).clip(&patch.corners);
+        let all = point_to_polygon(eye, normal, &above);
+        if all == 0.0 || (share == 0.0 && all > FEW * self.rays.delta()) {
+            return None;
+        }
+        let clear = !self.occluders.may_be_hidden(eye, &above, patch.normal);
+        let factor = if clear { all } else { share };
+        (factor > 0.0).then_some(Seen { patch: index as u32, factor, clear })
     }
 }

@@ -23,7 +23,7 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::contour::point_to_polygon;
 use crate::mesh::PatchId;
-use crate::visibility::{Occluders, PatchHierarchy};
+use crate::visibility::{HalfSpace, Occluders, PatchHierarchy};
 
 pub use delta::DeltaFactors;
 pub use element_map::ElementMap;
@@ -243,7 +243,7 @@ impl<'a> Hemicube<'a> {
         let [covered, kept] = [covered, kept].map(f64::from);
         let front = self.targets.height(index as usize, self.eye) > 0.0;
         let visible = match covered {
-            0.0 if front => self.glimpse(self.targets.middle(index as usize)),
+            0.0 if front => self.glimpse(&self.targets.outline(index as usize)),
             0.0 => 0.0,
             covered if self.rays.is_some() => kept / covered,
             covered => (kept / covered).min(1.0),
@@ -283,10 +283,12 @@ impl<'a> Hemicube<'a> {
         (covered > 0.0).then(|| f64::from(kept / covered).min(1.0))
     }
 
-    /// Whether the middle of a polygon that covers no cell's centre is seen, 0 or 1.
-    fn glimpse(&self, middle: DVec3) -> f64 {
-        let above = (middle - self.eye).dot(self.frame.row(2)) > 0.0;
-        f64::from(u8::from(above && !self.occluders.blocks(self.eye, middle)))
+    /// Whether the middle of what is above the horizon of a polygon that covers no cell's centre is
+    /// seen, 0 or 1.
+    fn glimpse(&self, corners: &[DVec3]) -> f64 {
+        let above = HalfSpace::new(self.eye, self.frame.row(2)).clip(corners);
+        let middle = above.iter().sum::<DVec3>() / above.len().max(1) as f64;
+        f64::from(u8::from(!above.is_empty() && !self.occluders.blocks(self.eye, middle)))
     }
 }
 
@@ -314,10 +316,9 @@ impl WithSimd for Share<'_, '_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
-        self.hemicube.share(simd, self.patch, self.corners).unwrap_or_else(|| {
-            let count = self.corners.len() as f64;
-            self.hemicube.glimpse(self.corners.iter().sum::<DVec3>() / count)
-        })
+        self.hemicube
+            .share(simd, self.patch, self.corners)
+            .unwrap_or_else(|| self.hemicube.glimpse(self.corners))
     }
 }
 

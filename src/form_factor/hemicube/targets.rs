@@ -111,13 +111,6 @@ impl Targets {
         (eye - self.corner(first as usize)).dot(normal)
     }
 
-    /// Mean of a patch's corners, m.
-    pub(super) fn middle(&self, patch: usize) -> DVec3 {
-        let corners = self.corners_of(patch);
-        let count = corners.len() as f64;
-        corners.map(|corner| self.corner(corner)).sum::<DVec3>() / count
-    }
-
     /// Calls `visit` with the patches that are not wholly below the horizon, as runs of corners in the
     /// frame whose rows are the hemicube's axes.
     #[inline(always)]
