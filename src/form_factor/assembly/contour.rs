@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::Row;
+use super::{Row, facet};
 use crate::form_factor::pair::visible_exchange;
 use crate::mesh::Patch;
 use crate::visibility::{Facet, Occluders};
@@ -58,8 +58,4 @@ impl<'a> Exchanges<'a> {
         let (centre, radius) = self.spheres[i];
         facet.plane.depth(centre) <= -radius
     }
-}
-
-fn facet(patch: &Patch) -> Facet<'_> {
-    Facet::new(&patch.corners, patch.normal)
 }

@@ -99,6 +99,10 @@ pub fn assemble(
     Assembled { factors, on_backs, rows: done }
 }
 
+fn facet(patch: &Patch) -> Facet<'_> {
+    Facet::new(&patch.corners, patch.normal)
+}
+
 /// Computes rows 0..`count`, all threads at work, until `observe` breaks off.
 fn in_batches<T>(
     count: usize,
@@ -122,14 +126,13 @@ fn in_batches<T>(
 fn exchanges_of(patches: &[Patch], occluders: &Occluders, factors: &FormFactors) -> Vec<Row> {
     let transposed = factors.transposed();
     let row = |i: usize| {
-        let this = Facet::new(&patches[i].corners, patches[i].normal);
+        let this = facet(&patches[i]);
         let above = |&(j, _): &(usize, f64)| j > i;
         let there: Row =
             factors.row(i).filter(above).map(|(j, f)| (j as u32, f * patches[i].area)).collect();
         let back = transposed.row(i).filter(above).map(|(j, f)| (j as u32, f * patches[j].area));
         let exact = |(j, sum): (u32, f64)| {
-            let patch = &patches[j as usize];
-            let other = Facet::new(&patch.corners, patch.normal);
+            let other = facet(&patches[j as usize]);
             let clear = occluders.between(this, other).is_empty();
             (j, if clear { exchange(this, other) } else { 0.5 * sum })
         };

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::Row;
-use crate::form_factor::pair::{place_in, quadrilaterals};
+use super::{Row, facet};
+use crate::form_factor::pair::{exchange, place_in, quadrilaterals};
 use crate::mesh::Patch;
 
 /// A patch whose view changes by more than this share of all light between one set of points and the
@@ -63,6 +63,8 @@ struct Looking<'a> {
 struct Cover<'a> {
     index: u32,
     patch: &'a Patch,
+    /// Share that it covers.
+    factor: f64,
 }
 
 impl Cover<'_> {
@@ -76,7 +78,7 @@ impl Cover<'_> {
 }
 
 /// The patches that lie face to face on one of them; the two sides of one polygon do not.
-fn covers(patches: &[Patch], index: usize) -> Vec<Cover<'_>> {
+fn covers<'a>(patches: &'a [Patch], index: usize) -> Vec<Cover<'a>> {
     let patch = &patches[index];
     let nearness = TOUCHING * patch.area.sqrt();
     let lies_on = |other: &Patch| {
@@ -84,8 +86,12 @@ fn covers(patches: &[Patch], index: usize) -> Vec<Cover<'_>> {
             && (other.corners[0] - patch.corners[0]).dot(patch.normal).abs() < nearness
             && !(other.two_sided && patch.two_sided)
     };
-    let covers = patches.iter().zip(0..).filter(|(other, _)| lies_on(other));
-    covers.map(|(patch, index)| Cover { index, patch }).collect()
+    let cover = |(other, index): (&'a Patch, u32)| {
+        let factor = exchange(facet(patch), facet(other)) / patch.area;
+        (factor > 0.0).then_some(Cover { index, patch: other, factor })
+    };
+    let on_it = patches.iter().zip(0..).filter(|(other, _)| lies_on(other));
+    on_it.filter_map(cover).collect()
 }
 
 /// Sums over points, one entry a patch.
@@ -102,10 +108,12 @@ impl Sum {
         look: &mut impl Look,
     ) -> Self {
         let mut sum = Self { factors: vec![0.0; count], clear: vec![true; count] };
+        for cover in covers {
+            sum.factors[cover.index as usize] = cover.factor;
+        }
         let points = points(patch, 1 << level);
         for (k, (eye, weight)) in points.into_iter().enumerate() {
-            if let Some(cover) = covers.iter().find(|cover| cover.holds(eye)) {
-                sum.factors[cover.index as usize] += weight;
+            if covers.iter().any(|cover| cover.holds(eye)) {
                 continue;
             }
             for seen in look.look(eye, patch.normal, turn(index + 7 * k)) {
