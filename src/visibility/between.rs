@@ -87,7 +87,7 @@ impl Between {
     /// The eye must be in front of the source's plane.
     pub fn visible_part(&self, eye: DVec3, source: Facet<'_>) -> Pieces {
         let mut pieces = Pieces::new();
-        pieces.push(source.corners.into());
+        pieces.push(Polygon::from_slice(source.corners));
         for part in &self.parts {
             subtract(&mut pieces, (eye, source), part, self.tolerance);
             if pieces.is_empty() {

@@ -81,7 +81,7 @@ impl Occluders {
         let facet = Facet::new(source, normal);
         let shaft = Shaft::new(eye, source, facet.plane);
         let mut pieces = Pieces::new();
-        pieces.push(source.into());
+        pieces.push(Polygon::from_slice(source));
         self.for_each(
             |low, high| shaft.meets_box(low, high, self.tolerance),
             |_, occluder| {

@@ -1,6 +1,7 @@
 //! The command: what it writes, says and returns.
 
 mod config;
+mod form_factors;
 #[cfg(unix)]
 mod interrupt;
 mod solve;

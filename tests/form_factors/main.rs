@@ -3,6 +3,7 @@
 mod cases;
 #[path = "../common/mod.rs"]
 mod common;
+mod matrix;
 
 use std::f64::consts::PI;
 

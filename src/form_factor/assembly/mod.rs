@@ -26,7 +26,8 @@ pub use point::factors_at;
 pub enum Method {
     /// Exactly: what occluders hide is cut away, and the rest integrated.
     Contour,
-    /// By hemicubes with this many cells, an even number, along an edge.
+    /// By hemicubes with this many cells, an even number, along an edge: from a point; over a patch, by
+    /// four of half as many, or more where views differ.
     Hemicube(u32),
     /// By spheres of this many rays.
     Rays(u32),
@@ -48,6 +49,9 @@ const BATCH: usize = 64;
 
 /// Rows whose sums are nearer to one than this have no light on backs worth looking for.
 const CLOSED: f64 = 1e-3;
+
+/// Fewest cells along a hemicube's edge.
+const LEAST_RESOLUTION: u32 = 32;
 
 /// A row: (column, factor or exchange), columns ascending.
 type Row = Vec<(u32, f64)>;
@@ -71,7 +75,9 @@ pub fn assemble(
             in_batches(patches.len(), &mut rows, || (), |(), i| exchanges.row(i), &mut observe);
         }
         Method::Hemicube(resolution) => {
-            let (delta, targets) = (DeltaFactors::new(resolution as usize), Targets::new(patches));
+            // Rows are looked at from four points or more: as many cells in all.
+            let each = (resolution / 4 * 2).max(LEAST_RESOLUTION) as usize;
+            let (delta, targets) = (DeltaFactors::new(each), Targets::new(patches));
             let looker = || views::Cells::new(patches, occluders, (&delta, &targets));
             let row = |look: &mut views::Cells<'_>, i| sampled::row(patches, i, look);
             in_batches(patches.len(), &mut rows, looker, row, &mut observe);

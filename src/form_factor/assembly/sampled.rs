@@ -8,7 +8,7 @@ use crate::mesh::Patch;
 
 /// A patch whose view changes by more than this share of all light between one set of points and the
 /// next is looked from by four times as many.
-const TOLERANCE: f64 = 0.03;
+const TOLERANCE: f64 = 0.05;
 
 /// Most often that points are made four times as many.
 const MOST_LEVELS: u32 = 4;

@@ -62,7 +62,7 @@ pub fn by_contours(a: &[DVec3], b: &[DVec3]) -> f64 {
 fn in_front(facet: Facet<'_>, other: Facet<'_>) -> Option<Polygon> {
     let depth = |corner: &DVec3| other.plane.depth(*corner);
     if facet.corners.iter().all(|corner| depth(corner) >= 0.0) {
-        return Some(facet.corners.into());
+        return Some(Polygon::from_slice(facet.corners));
     }
     Some(other.plane.clip(facet.corners)).filter(|part| !part.is_empty())
 }

@@ -1,0 +1,140 @@
+//! Laws of whole matrices: reciprocity, closure, additivity, and a matrix that is made to keep them.
+
+use std::ops::ControlFlow;
+
+use glam::DVec3;
+use proptest::prelude::*;
+use radiosity::form_factor::pair::{exchange, visible_exchange};
+use radiosity::form_factor::{Assembled, FormFactors, Method, assemble};
+use radiosity::mesh::Mesh;
+use radiosity::visibility::{Facet, HalfSpace, Occluders};
+use radiosity::{Length, Scene, Settings, surfaces_of};
+
+use crate::common::{Block, furnished_room};
+
+fn room() -> Scene {
+    furnished_room(&[
+        Block { base: DVec3::new(1.2, 0.0, 1.3), size: DVec3::new(0.8, 1.2, 0.7), turn: 0.5 },
+        Block { base: DVec3::new(2.9, 0.9, 3.3), size: DVec3::new(0.9, 0.6, 1.1), turn: -0.2 },
+    ])
+}
+
+fn matrix(scene: &Scene, size: f64, method: Method) -> Assembled {
+    let surfaces = surfaces_of(scene);
+    let settings = Settings { patch_size: Length::Metres(size), ..Settings::draft() };
+    let patches = Mesh::new(&surfaces, &settings).patches;
+    assemble(&patches, &Occluders::new(&surfaces), method, |_| ControlFlow::Continue(()))
+}
+
+/// Largest difference from one of a row's sum, light on backs included.
+fn closure(assembled: &Assembled) -> f64 {
+    let sums = assembled.factors.row_sums().into_iter().zip(&assembled.on_backs);
+    sums.map(|(sum, backs)| (1.0 - sum - backs).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn rows_of_a_closed_room_sum_to_one_by_every_method() {
+    let methods =
+        [(Method::Contour, 4e-4), (Method::Hemicube(256), 0.03), (Method::Rays(16_384), 0.03)];
+    for (method, tolerance) in methods {
+        let assembled = matrix(&room(), 1.0, method);
+        let (closure, n) = (closure(&assembled), assembled.factors.len());
+        assert!(n > 100 && closure < tolerance, "{method:?}: {closure} in {n} rows");
+        assert!(assembled.factors.reciprocity() < 1e-12, "{method:?}");
+    }
+}
+
+#[test]
+fn an_enforced_matrix_is_reciprocal_and_closed_and_within_bounds() {
+    let Assembled { factors, on_backs, .. } = matrix(&room(), 1.2, Method::Hemicube(64));
+    let sums: Vec<f64> = on_backs.iter().map(|backs| 1.0 - backs).collect();
+    let enforced = factors.enforced(&sums);
+    assert!(enforced.reciprocity() < 1e-9, "{}", enforced.reciprocity());
+    for (i, (sum, expected)) in enforced.row_sums().into_iter().zip(&sums).enumerate() {
+        assert!((sum - expected).abs() < 1e-9, "row {i} sums to {sum}");
+        for (j, factor) in enforced.row(i) {
+            let most = enforced.areas()[i].min(enforced.areas()[j]) / enforced.areas()[i];
+            assert!((0.0..=most + 1e-9).contains(&factor), "{factor} from {i} to {j}");
+            let before = factors.get(i, j);
+            assert!((factor - before).abs() < 0.05 * before + 1e-9, "{factor} for {before}");
+        }
+    }
+}
+
+#[test]
+fn what_is_interrupted_has_whole_rows_and_empty_ones() {
+    let surfaces = surfaces_of(&room());
+    let settings = Settings { patch_size: Length::Metres(0.8), ..Settings::draft() };
+    let patches = Mesh::new(&surfaces, &settings).patches;
+    let occluders = Occluders::new(&surfaces);
+    let stop =
+        |done: f64| if done > 0.2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    let part = assemble(&patches, &occluders, Method::Contour, stop);
+    let whole = assemble(&patches, &occluders, Method::Contour, |_| ControlFlow::Continue(()));
+    assert!((1..patches.len()).contains(&part.rows), "{} rows", part.rows);
+    for i in 0..patches.len() {
+        let row = |factors: &FormFactors| factors.row(i).collect::<Vec<_>>();
+        let expected = if i < part.rows { row(&whole.factors) } else { Vec::new() };
+        assert_eq!(row(&part.factors), expected, "row {i}");
+    }
+}
+
+#[test]
+fn grouped_patches_exchange_what_their_parts_do() {
+    let factors = matrix(&room(), 1.5, Method::Contour).factors;
+    let group: Vec<usize> = (0..factors.len()).map(|i| i % 7).collect();
+    let grouped = factors.grouped(&group, 7);
+    let area: f64 = factors.areas().iter().sum();
+    assert!((grouped.areas().iter().sum::<f64>() / area - 1.0).abs() < 1e-12);
+    assert!(grouped.reciprocity() < 1e-12);
+    for (i, sum) in grouped.row_sums().into_iter().enumerate() {
+        assert!((sum - 1.0).abs() < 4e-4, "row {i} sums to {sum}");
+    }
+}
+
+fn point() -> impl Strategy<Value = DVec3> {
+    (-1.0..1.0, -1.0..1.0, -1.0..1.0).prop_map(DVec3::from)
+}
+
+fn triangle(centre: DVec3) -> impl Strategy<Value = [DVec3; 3]> {
+    (point(), point(), point())
+        .prop_map(move |(a, b, c)| [a + centre, b + centre, c + centre])
+        .prop_filter("slender", |[a, b, c]| (b - a).cross(c - a).length() > 0.3)
+}
+
+fn facet<'a>(corners: &'a [DVec3], towards: DVec3) -> Facet<'a> {
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
+    Facet::new(corners, normal * normal.dot(towards - corners[0]).signum())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    #[test]
+    fn exchanges_are_symmetric_and_parts_add_up(
+        a in triangle(DVec3::ZERO), b in triangle(DVec3::Z * 1.7), normal in point(),
+    ) {
+        let (first, second) = (facet(&a, DVec3::Z * 1.7), facet(&b, DVec3::ZERO));
+        let there = exchange(first, second);
+        let back = exchange(second, first);
+        prop_assert!((there - back).abs() < 1e-6 * there + 1e-12, "{there} and {back} m²");
+        let side = HalfSpace::new(DVec3::Z * 1.7, normal.normalize_or(DVec3::X));
+        let parts = [side.clip(&b), side.complement().clip(&b)];
+        let whole = parts.iter().filter(|part| !part.is_empty());
+        let sum: f64 = whole.map(|p| exchange(first, Facet { corners: p, ..second })).sum();
+        prop_assert!((there - sum).abs() < 2e-6 * there + 1e-9, "{there} whole, {sum} in parts");
+    }
+
+    #[test]
+    fn visible_exchanges_are_symmetric_and_below_the_unhidden(
+        a in triangle(DVec3::ZERO), b in triangle(DVec3::Z * 4.0), blocker in triangle(DVec3::Z * 2.0),
+    ) {
+        let (first, second) = (facet(&a, DVec3::Z * 4.0), facet(&b, DVec3::ZERO));
+        let occluders = Occluders::from_polygons(&[&blocker], 1e-9);
+        let all = exchange(first, second);
+        let there = visible_exchange(&occluders, first, second, 1e-6);
+        let back = visible_exchange(&occluders, second, first, 1e-6);
+        prop_assert!((0.0..=all * (1.0 + 1e-6) + 1e-12).contains(&there), "{there} of {all} m²");
+        prop_assert!((there - back).abs() < 1e-5, "{there} and {back} m²");
+    }
+}
