@@ -89,6 +89,11 @@ impl Occluders {
         Self { polygons: ordered, bvh, centre, extent, tolerance }
     }
 
+    /// Distances that count as zero, m.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
     /// A distance from within the scene to beyond all of it, m.
     pub fn extent(&self) -> f64 {
         2.0 * self.extent

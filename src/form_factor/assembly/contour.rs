@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::contacts::Contacts;
 use super::{Row, facet};
 use crate::form_factor::pair::visible_exchange;
 use crate::mesh::Patch;
@@ -35,9 +36,9 @@ impl<'a> Exchanges<'a> {
     }
 
     /// Share of the light of patch `i` that meets the black backs of others.
-    pub(super) fn on_backs(&self, i: usize) -> f64 {
+    pub(super) fn on_backs(&self, i: usize, contacts: &Contacts) -> f64 {
         let others =
-            self.patches.iter().enumerate().filter(|(j, patch)| *j != i && !patch.two_sided);
+            self.patches.iter().enumerate().filter(|(j, _)| *j != i && !contacts.is_backed(*j));
         let exchange = |(j, patch): (usize, &Patch)| {
             let corners: Vec<DVec3> = patch.corners.iter().rev().copied().collect();
             self.with(i, j, Facet::new(&corners, -patch.normal))

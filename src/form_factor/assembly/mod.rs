@@ -1,5 +1,6 @@
 //! All form factors of a scene's patches, by the method of one's choice.
 
+mod contacts;
 mod contour;
 mod point;
 mod sampled;
@@ -11,7 +12,7 @@ use rayon::prelude::*;
 
 use super::FormFactors;
 use super::hemicube::{DeltaFactors, Targets};
-use super::pair::exchange;
+use super::pair::{exchange, is_level};
 use super::rays::Sphere;
 use crate::mesh::Patch;
 use crate::visibility::{Facet, Occluders, PatchHierarchy};
@@ -68,6 +69,7 @@ pub fn assemble(
     mut observe: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Assembled {
     let exchanges = contour::Exchanges::new(patches, occluders);
+    let contacts = contacts::Contacts::find(patches, occluders);
     let mut rows: Vec<Row> = Vec::with_capacity(patches.len());
     let areas: Vec<f64> = patches.iter().map(|patch| patch.area).collect();
     match method {
@@ -79,13 +81,13 @@ pub fn assemble(
             let each = (resolution / 4 * 2).max(LEAST_RESOLUTION) as usize;
             let (delta, targets) = (DeltaFactors::new(each), Targets::new(patches));
             let looker = || views::Cells::new(patches, occluders, (&delta, &targets));
-            let row = |look: &mut views::Cells<'_>, i| sampled::row(patches, i, look);
+            let row = |look: &mut views::Cells<'_>, i| sampled::row((patches, &contacts), i, look);
             in_batches(patches.len(), &mut rows, looker, row, &mut observe);
         }
         Method::Rays(count) => {
             let (sphere, hierarchy) = (Sphere::new(count as usize), PatchHierarchy::new(patches));
             let looker = || views::Sphere::new(patches, occluders, (&sphere, &hierarchy));
-            let row = |look: &mut views::Sphere<'_>, i| sampled::row(patches, i, look);
+            let row = |look: &mut views::Sphere<'_>, i| sampled::row((patches, &contacts), i, look);
             in_batches(patches.len(), &mut rows, looker, row, &mut observe);
         }
     }
@@ -94,12 +96,19 @@ pub fn assemble(
     if method != Method::Contour {
         rows = exchanges_of(patches, occluders, &FormFactors::from_rows(areas.clone(), rows));
     }
+    for (i, row) in rows.iter_mut().enumerate() {
+        *row = merged(std::mem::take(row), contacts.row(i).into_iter());
+    }
     mirror(&mut rows, &areas);
     rows[done..].iter_mut().for_each(Vec::clear);
     let factors = FormFactors::from_rows(areas, rows);
     let sums = factors.row_sums();
     let on_backs = |(i, sum): (usize, f64)| {
-        if i < done && sum < 1.0 - CLOSED { exchanges.on_backs(i) } else { 0.0 }
+        if i < done && sum < 1.0 - CLOSED {
+            exchanges.on_backs(i, &contacts).min(1.0 - sum)
+        } else {
+            0.0
+        }
     };
     let on_backs = sums.into_par_iter().enumerate().map(on_backs).collect();
     Assembled { factors, on_backs, rows: done }
@@ -139,6 +148,9 @@ fn exchanges_of(patches: &[Patch], occluders: &Occluders, factors: &FormFactors)
         let back = transposed.row(i).filter(above).map(|(j, f)| (j as u32, f * patches[j].area));
         let exact = |(j, sum): (u32, f64)| {
             let other = facet(&patches[j as usize]);
+            if is_level(this, other, occluders.tolerance()) {
+                return (j, 0.0);
+            }
             let clear = occluders.between(this, other).is_empty();
             (j, if clear { exchange(this, other) } else { 0.5 * sum })
         };

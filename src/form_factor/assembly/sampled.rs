@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
-use super::{Row, facet};
-use crate::form_factor::pair::{exchange, place_in, quadrilaterals};
+use super::Row;
+use super::contacts::Contacts;
+use crate::form_factor::pair::{place_in, quadrilaterals};
 use crate::mesh::Patch;
 
 /// A patch whose view changes by more than this share of all light between one set of points and the
@@ -12,9 +13,6 @@ const TOLERANCE: f64 = 0.05;
 
 /// Most often that points are made four times as many.
 const MOST_LEVELS: u32 = 4;
-
-/// Patches nearer to each other than this share of their size touch.
-const TOUCHING: f64 = 1e-6;
 
 /// Something that a point sees.
 #[derive(Clone, Copy, Debug)]
@@ -35,15 +33,19 @@ pub(super) trait Look {
 /// Form factors from a patch: means over points that are added until the row keeps still.
 ///
 /// What is clear from everywhere will be computed exactly and has no say.
-pub(super) fn row(patches: &[Patch], index: usize, look: &mut impl Look) -> Row {
-    let count = patches.len();
-    let patch = &Looking { patch: &patches[index], covers: covers(patches, index) };
-    let mut before = Sum::from_points(patch, (index, 0), count, look);
+pub(super) fn row(
+    (patches, contacts): (&[Patch], &Contacts),
+    index: usize,
+    look: &mut impl Look,
+) -> Row {
+    let mut from_points = |level: u32| {
+        let points = points(&patches[index], 1 << level);
+        let free = points.into_iter().filter(|(eye, _)| !contacts.cover(index, *eye));
+        Sum::from_points(free, (patches, index), look)
+    };
+    let mut before = from_points(0);
     for level in 1..=MOST_LEVELS {
-        if before.partly_hidden() <= TOLERANCE {
-            break;
-        }
-        let finer = Sum::from_points(patch, (index, level), count, look);
+        let finer = from_points(level);
         let change = finer.change(&before);
         before = finer;
         if change <= TOLERANCE {
@@ -51,47 +53,6 @@ pub(super) fn row(patches: &[Patch], index: usize, look: &mut impl Look) -> Row 
         }
     }
     before.into_row()
-}
-
-/// A patch to look from, and what lies on it.
-struct Looking<'a> {
-    patch: &'a Patch,
-    covers: Vec<Cover<'a>>,
-}
-
-/// A patch in the same plane that faces the other way: from where it covers nothing else is seen.
-struct Cover<'a> {
-    index: u32,
-    patch: &'a Patch,
-    /// Share that it covers.
-    factor: f64,
-}
-
-impl Cover<'_> {
-    fn holds(&self, point: DVec3) -> bool {
-        let (corners, normal) = (&self.patch.corners, self.patch.normal);
-        (0..corners.len()).all(|k| {
-            let (from, to) = (corners[k], corners[(k + 1) % corners.len()]);
-            (to - from).cross(point - from).dot(normal) >= 0.0
-        })
-    }
-}
-
-/// The patches that lie face to face on one of them; the two sides of one polygon do not.
-fn covers<'a>(patches: &'a [Patch], index: usize) -> Vec<Cover<'a>> {
-    let patch = &patches[index];
-    let nearness = TOUCHING * patch.area.sqrt();
-    let lies_on = |other: &Patch| {
-        other.normal.dot(patch.normal) < -1.0 + TOUCHING
-            && (other.corners[0] - patch.corners[0]).dot(patch.normal).abs() < nearness
-            && !(other.two_sided && patch.two_sided)
-    };
-    let cover = |(other, index): (&'a Patch, u32)| {
-        let factor = exchange(facet(patch), facet(other)) / patch.area;
-        (factor > 0.0).then_some(Cover { index, patch: other, factor })
-    };
-    let on_it = patches.iter().zip(0..).filter(|(other, _)| lies_on(other));
-    on_it.filter_map(cover).collect()
 }
 
 /// Sums over points, one entry a patch.
@@ -102,32 +63,18 @@ struct Sum {
 
 impl Sum {
     fn from_points(
-        Looking { patch, covers }: &Looking<'_>,
-        (index, level): (usize, u32),
-        count: usize,
+        points: impl Iterator<Item = (DVec3, f64)>,
+        (patches, index): (&[Patch], usize),
         look: &mut impl Look,
     ) -> Self {
-        let mut sum = Self { factors: vec![0.0; count], clear: vec![true; count] };
-        for cover in covers {
-            sum.factors[cover.index as usize] = cover.factor;
-        }
-        let points = points(patch, 1 << level);
-        for (k, (eye, weight)) in points.into_iter().enumerate() {
-            if covers.iter().any(|cover| cover.holds(eye)) {
-                continue;
-            }
-            for seen in look.look(eye, patch.normal, turn(index + 7 * k)) {
+        let mut sum = Self { factors: vec![0.0; patches.len()], clear: vec![true; patches.len()] };
+        for (k, (eye, weight)) in points.enumerate() {
+            for seen in look.look(eye, patches[index].normal, turn(index + 7 * k)) {
                 sum.factors[seen.patch as usize] += weight * seen.factor;
                 sum.clear[seen.patch as usize] &= seen.clear;
             }
         }
         sum
-    }
-
-    /// Light that arrives at what is only seen in parts.
-    fn partly_hidden(&self) -> f64 {
-        let hidden = self.factors.iter().zip(&self.clear).filter(|(_, clear)| !**clear);
-        hidden.map(|(factor, _)| factor).sum()
     }
 
     /// Share of all light that arrives elsewhere than `before`.

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::contour::point_to_polygon_above;
-use crate::visibility::{Facet, Polygon};
+use crate::visibility::{Facet, HalfSpace, Polygon};
 
 pub use occluded::visible_exchange;
 
@@ -56,6 +56,15 @@ pub fn by_contours(a: &[DVec3], b: &[DVec3]) -> f64 {
     let pairs = edges_of(a).flat_map(|x| edges_of(b).map(move |y| (x, y)));
     let sum: f64 = pairs.map(|(x, y)| log_distance(x, y, unit, tolerance)).sum();
     (sum / (2.0 * PI)).abs()
+}
+
+/// True if two polygons lie in one plane, to within `tolerance`, m: then they exchange nothing, though
+/// in the limit of two that approach each other face to face they would.
+pub(super) fn is_level(a: Facet<'_>, b: Facet<'_>, tolerance: f64) -> bool {
+    let above = |plane: &HalfSpace, corners: &[DVec3]| {
+        corners.iter().any(|&corner| plane.depth(corner) > tolerance)
+    };
+    !above(&a.plane, b.corners) || !above(&b.plane, a.corners)
 }
 
 /// The part of `facet` in front of `other`'s plane, if there is one.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::cubature::{at, quadrilaterals};
-use super::{Round, exchange, in_front};
+use super::{Round, exchange, in_front, is_level};
 use crate::form_factor::contour::point_to_polygon_above;
 use crate::visibility::{Between, Facet, Occluders};
 
@@ -18,6 +18,9 @@ const MOST_CELLS: usize = 100;
 /// are integrated side by side; what is known better decides, as together they are the
 /// [`exchange`] that there would be with nothing between.
 pub fn visible_exchange(occluders: &Occluders, a: Facet<'_>, b: Facet<'_>, tolerance: f64) -> f64 {
+    if is_level(a, b, occluders.tolerance()) {
+        return 0.0;
+    }
     let (Some(front_a), Some(front_b)) = (in_front(a, b), in_front(b, a)) else { return 0.0 };
     let (a, b) = (Facet { corners: &front_a, ..a }, Facet { corners: &front_b, ..b });
     let between = occluders.between(a, b);

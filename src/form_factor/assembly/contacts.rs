@@ -1,0 +1,125 @@
+//! Patches face to face in one plane, such as a floor and the bottom of a box on it.
+//!
+//! Where they lie is no different from where two faces lie back to back; what they see is: within a
+//! solid there are mostly backs.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::Row;
+use crate::form_factor::hemicube::frame;
+use crate::form_factor::rays::Sphere;
+use crate::mesh::Patch;
+use crate::visibility::{HalfSpace, Occluders, PatchHierarchy, Polygon};
+
+/// Rays that tell whether a place is within a solid.
+const PROBES: usize = 64;
+
+/// What patches touch.
+#[derive(Debug)]
+pub(super) struct Contacts {
+    /// By patch: those face to face with it.
+    face_to_face: Vec<Vec<Contact>>,
+    /// By patch: true if its back is behind the front of another, or has a patch of its own.
+    backed: Vec<bool>,
+}
+
+/// A patch that lies on another.
+#[derive(Debug)]
+struct Contact {
+    other: u32,
+    normal: DVec3,
+    /// Where both are.
+    overlap: Polygon,
+}
+
+impl Contacts {
+    pub(super) fn find(patches: &[Patch], occluders: &Occluders) -> Self {
+        let tolerance = occluders.tolerance();
+        let touching = |i: usize| -> Vec<Contact> {
+            let others = patches.iter().zip(0..);
+            others.filter_map(|(other, j)| Contact::of(&patches[i], other, j, tolerance)).collect()
+        };
+        let mut all: Vec<Vec<Contact>> = (0..patches.len()).into_par_iter().map(touching).collect();
+        let backed = |(patch, contacts): (&Patch, &Vec<Contact>)| {
+            let covered: f64 = contacts.iter().map(Contact::area).sum();
+            patch.two_sided || covered > 0.5 * patch.area
+        };
+        let backed = patches.iter().zip(&all).map(backed).collect();
+        if all.iter().any(|contacts| !contacts.is_empty()) {
+            let (hierarchy, sphere) = (PatchHierarchy::new(patches), Sphere::new(PROBES));
+            let is_buried = |place: DVec3, patch: &Patch| {
+                let frame = frame(patch.normal, 0.0).transpose();
+                let met = sphere.directions().filter_map(|d| hierarchy.first(place, frame * d));
+                let backs = met.filter(|(met, _)| {
+                    let met = &patches[met.index()];
+                    (place - met.corners[0]).dot(met.normal) < 0.0
+                });
+                backs.count() > PROBES / 2
+            };
+            all.par_iter_mut().zip(patches).for_each(|(contacts, patch)| {
+                contacts.retain(|contact| {
+                    let middle =
+                        contact.overlap.iter().sum::<DVec3>() / contact.overlap.len() as f64;
+                    is_buried(middle, patch) || is_buried(middle, &patches[contact.other as usize])
+                });
+            });
+        }
+        Self { face_to_face: all, backed }
+    }
+
+    /// Exchanges, m², of patch `i` with those after it that it touches.
+    pub(super) fn row(&self, i: usize) -> Row {
+        let after = self.face_to_face[i].iter().filter(|contact| contact.other as usize > i);
+        after.map(|contact| (contact.other, contact.area())).collect()
+    }
+
+    /// True if light cannot end on the black back of patch `i`.
+    pub(super) fn is_backed(&self, i: usize) -> bool {
+        self.backed[i]
+    }
+
+    /// True if another patch lies on patch `i` at a point of it: nothing else is seen from there.
+    pub(super) fn cover(&self, i: usize, point: DVec3) -> bool {
+        self.face_to_face[i].iter().any(|contact| contact.holds(point))
+    }
+}
+
+impl Contact {
+    fn of(patch: &Patch, other: &Patch, index: u32, tolerance: f64) -> Option<Self> {
+        let height = (other.corners[0] - patch.corners[0]).dot(patch.normal).abs();
+        let faces = height <= tolerance && other.normal.dot(patch.normal) < -1.0 + 1e-9;
+        if !faces || (patch.two_sided && other.two_sided) {
+            return None;
+        }
+        let sides = (0..other.corners.len()).map(|k| other.side(k));
+        let clipped = |overlap: Polygon, side: HalfSpace| side.clip(&overlap);
+        let overlap = sides.fold(Polygon::from_slice(&patch.corners), clipped);
+        let contact = Self { other: index, normal: other.normal, overlap };
+        let least = tolerance * patch.area.min(other.area).sqrt();
+        (contact.overlap.len() > 2 && contact.area() > least).then_some(contact)
+    }
+
+    fn area(&self) -> f64 {
+        let first = self.overlap[0];
+        let fan = self.overlap.windows(2).map(|e| (e[0] - first).cross(e[1] - first));
+        fan.sum::<DVec3>().length() / 2.0
+    }
+
+    fn holds(&self, point: DVec3) -> bool {
+        let corners = &self.overlap;
+        // The overlap turns as the patch below it, against the other's normal.
+        (0..corners.len()).all(|k| {
+            let (from, to) = (corners[k], corners[(k + 1) % corners.len()]);
+            (to - from).cross(point - from).dot(self.normal) <= 0.0
+        })
+    }
+}
+
+impl Patch {
+    /// The inside of its `k`-th edge.
+    fn side(&self, k: usize) -> HalfSpace {
+        let (from, to) = (self.corners[k], self.corners[(k + 1) % self.corners.len()]);
+        HalfSpace::new(from, self.normal.cross(to - from).normalize_or_zero())
+    }
+}
