@@ -81,6 +81,21 @@ fn a_closed_room_is_called_closed_and_its_laws_can_be_enforced() {
 }
 
 #[test]
+fn one_thread_and_three_write_the_same_bytes() {
+    let place = Place::new();
+    let scene = scene("cornell-box.obj");
+    for method in ["contour", "hemicube", "rays"] {
+        let written = ["1", "3"].map(|threads| {
+            let arguments = ["--method", method, "--threads", threads, "--rays", "1024"];
+            let fixed = ["form-factors", &scene, "--patch-size", "0.3", "-q", "-o", "F.csv"];
+            place.run(&[&fixed[..], &arguments].concat()).done();
+            std::fs::read(place.path("F.csv")).unwrap()
+        });
+        assert!(written[0].len() > 10_000 && written[0] == written[1], "{method}");
+    }
+}
+
+#[test]
 fn what_cannot_be_is_refused() {
     let place = Place::new();
     let scene = scene("cornell-box.obj");
