@@ -9,7 +9,7 @@ use crate::mesh::Patch;
 use crate::visibility::{Facet, Occluders};
 
 /// Error of an exchange, as a share of the smaller patch's area.
-const TOLERANCE: f64 = 2e-5;
+const TOLERANCE: f64 = 1e-4;
 
 /// Patches with what decides quickly that two of them do not face each other.
 pub(super) struct Exchanges<'a> {
