@@ -36,7 +36,7 @@ struct Room {
 }
 
 /// A thousand patches, with that many elements, a hundred thousand, and a million.
-static COARSE: LazyLock<[Room; 3]> = LazyLock::new(|| [0, 3, 5].map(|levels| room(0.77, levels)));
+static COARSE: LazyLock<[Room; 3]> = LazyLock::new(|| [0, 3, 5].map(|levels| room(0.9, levels)));
 
 /// Ten thousand patches, with that many elements, a hundred thousand, and a million.
 static FINE: LazyLock<[Room; 3]> = LazyLock::new(|| [0, 2, 3].map(|levels| room(0.218, levels)));
