@@ -21,6 +21,36 @@ pub struct Between {
 impl Occluders {
     /// What stands between two polygons that face each other.
     pub fn between(&self, a: Facet<'_>, b: Facet<'_>) -> Between {
+        let tolerance = self.tolerance;
+        let near = self.near(a, b);
+        if near.is_empty() {
+            return Between { parts: Vec::new(), tolerance, hides_all: false };
+        }
+        let near = near.iter().map(|&index| &self.polygons[index as usize]);
+        let hides_all = near.clone().any(|occluder| hides(occluder, a, b, tolerance));
+        let hull = hull(a, b, tolerance);
+        let along = (b.corners[0] - a.corners[0]).normalize_or_zero();
+        let parts = near.filter_map(|occluder| inside(occluder, &hull, tolerance));
+        // What hides most comes first: it leaves the others little to cut.
+        let mut parts: Vec<(f64, Occluder)> =
+            parts.map(|part| (shade(&part, along), part)).collect();
+        parts.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        Between { parts: parts.into_iter().map(|(_, part)| part).collect(), tolerance, hides_all }
+    }
+
+    /// True if nothing stands between two polygons that face each other.
+    pub fn is_clear(&self, a: Facet<'_>, b: Facet<'_>) -> bool {
+        let near = self.near(a, b);
+        if near.is_empty() {
+            return true;
+        }
+        let hull = hull(a, b, self.tolerance);
+        let stands = |&index: &u32| inside(&self.polygons[index as usize], &hull, self.tolerance);
+        near.iter().all(|index| stands(index).is_none())
+    }
+
+    /// The occluders of which something is in the box around two polygons and in front of both.
+    fn near(&self, a: Facet<'_>, b: Facet<'_>) -> SmallVec<[u32; 16]> {
         let corners = || a.corners.iter().chain(b.corners).copied();
         let low = corners().fold(DVec3::INFINITY, DVec3::min);
         let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
@@ -48,19 +78,7 @@ impl Occluders {
                 true
             },
         );
-        if near.is_empty() {
-            return Between { parts: Vec::new(), tolerance, hides_all: false };
-        }
-        let near = near.iter().map(|&index| &self.polygons[index as usize]);
-        let hides_all = near.clone().any(|occluder| hides(occluder, a, b, tolerance));
-        let hull = hull(a, b, tolerance);
-        let along = (b.corners[0] - a.corners[0]).normalize_or_zero();
-        let parts = near.filter_map(|occluder| inside(occluder, &hull, tolerance));
-        // What hides most comes first: it leaves the others little to cut.
-        let mut parts: Vec<(f64, Occluder)> =
-            parts.map(|part| (shade(&part, along), part)).collect();
-        parts.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        Between { parts: parts.into_iter().map(|(_, part)| part).collect(), tolerance, hides_all }
+        near
     }
 }
 

@@ -151,7 +151,7 @@ fn exchanges_of(patches: &[Patch], occluders: &Occluders, factors: &FormFactors)
             if is_level(this, other, occluders.tolerance()) {
                 return (j, 0.0);
             }
-            let clear = occluders.between(this, other).is_empty();
+            let clear = occluders.is_clear(this, other);
             (j, if clear { exchange(this, other) } else { 0.5 * sum })
         };
         merged(there, back).into_iter().map(exact).collect()
