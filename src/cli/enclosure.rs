@@ -44,7 +44,6 @@ impl Enclosure {
         let missing = missing(&factors, &on_backs);
         let missing = &missing[..rows];
         let areas = &factors.areas()[..rows];
-        let lost = |share: &f64, area: &f64| share * area;
         let leakiest = by_object(missing, patches);
         Self {
             patches: factors.len(),
@@ -52,7 +51,7 @@ impl Enclosure {
             rows,
             closure: missing.iter().map(|share| share.abs()).fold(0.0, f64::max),
             reciprocity: factors.reciprocity(),
-            escaping: missing.iter().zip(areas).map(|(s, a)| lost(s, a)).sum::<f64>()
+            escaping: missing.iter().zip(areas).map(|(share, area)| share * area).sum::<f64>()
                 / areas.iter().sum::<f64>().max(f64::MIN_POSITIVE),
             leakiest,
             buried: on_backs.iter().filter(|&&share| share > BURIED).count(),

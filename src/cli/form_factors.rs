@@ -107,9 +107,8 @@ impl FormFactors {
         let whole = Whole::new(&surfaces, &mesh, &settings);
         let enclosure = Enclosure::new(whole.assembled(assembled), &whole.patches);
         let enclosure = if self.enforce { enclosure.enforced() } else { enclosure };
-        let factors = enclosure.factors.clone();
         let at = at.map(|at| whole.sums(&at));
-        let table = FactorTable { patches: whole.patches, factors, at };
+        let table = FactorTable { patches: whole.patches, factors: &enclosure.factors, at };
         if !self.output.is_empty() {
             meter.begin("writing");
         }

@@ -18,11 +18,11 @@ use crate::form_factor::FormFactors;
 
 /// Form factors with what they are between.
 #[derive(Clone, Debug)]
-pub struct FactorTable {
+pub struct FactorTable<'a> {
     /// The patches, in the order of rows and columns.
     pub patches: Vec<FactorPatch>,
     /// The matrix.
-    pub factors: FormFactors,
+    pub factors: &'a FormFactors,
     /// Form factors from a point to each patch.
     pub at: Option<Vec<f64>>,
 }
@@ -46,11 +46,11 @@ pub struct FactorPatch {
 ///
 /// # Errors
 /// When the ending is none of these, or the file cannot be written.
-pub fn save_factors(table: &FactorTable, path: &Path) -> Result<()> {
+pub fn save_factors(table: &FactorTable<'_>, path: &Path) -> Result<()> {
     match Format::of(path)? {
         Format::Json => file::replace(path, |out| Ok(serde_json::to_writer(out, &Json(table))?)),
         Format::Csv => file::replace(path, |out| write_csv(table, out)),
-        Format::Npy => file::replace(path, |out| write_npy(&table.factors, out)),
+        Format::Npy => file::replace(path, |out| write_npy(table.factors, out)),
     }
 }
 
@@ -89,7 +89,7 @@ fn dense(factors: &FormFactors, i: usize) -> Vec<f64> {
     row
 }
 
-fn write_csv(table: &FactorTable, out: &mut impl Write) -> io::Result<()> {
+fn write_csv(table: &FactorTable<'_>, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "from,from_object,to,to_object,factor")?;
     let object = |i: usize| format!("\"{}\"", table.patches[i].object.replace('"', "\"\""));
     for i in 0..table.factors.len() {
@@ -115,7 +115,7 @@ fn write_npy(factors: &FormFactors, out: &mut impl Write) -> io::Result<()> {
     writer.finish()
 }
 
-struct Json<'a>(&'a FactorTable);
+struct Json<'a>(&'a FactorTable<'a>);
 
 impl Serialize for Json<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
@@ -123,7 +123,7 @@ impl Serialize for Json<'_> {
         let Self(table) = self;
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("patches", &table.patches)?;
-        map.serialize_entry("F", &Rows(&table.factors))?;
+        map.serialize_entry("F", &Rows(table.factors))?;
         if let Some(at) = &table.at {
             map.serialize_entry("at", at)?;
         }

@@ -24,6 +24,7 @@ pub use camera::Camera;
 pub use light::Light;
 pub use load::load;
 pub use material::{MAX_REFLECTANCE, Material, Texture};
+pub(crate) use polygon::area_vector;
 pub(crate) use texture::decode;
 
 /// A scene of polygons, in metres.

@@ -12,10 +12,9 @@ use smallvec::SmallVec;
 
 use super::direct_pass::World;
 use super::sources::{Piece, Sources};
-use super::transport::turn;
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
-use crate::form_factor::hemicube::{DeltaFactors, Hemicube, Sight, Targets};
+use crate::form_factor::hemicube::{DeltaFactors, Hemicube, Sight, Targets, turn};
 use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
 
 /// Cells along the edge of the hemicubes over vertices: they measure visibility only, and vertices
@@ -96,7 +95,7 @@ impl<'a> Gatherer<'a> {
     fn gather(&self, mesh: &Mesh, hemicube: &mut Hemicube<'_>, vertex: VertexId) -> (Rgb, View) {
         let site = mesh[vertex].site;
         let normal = self.world.surfaces.list[mesh[vertex].surface as usize].plane.normal;
-        let hemicube = hemicube.look((site, normal), turn(vertex.index()));
+        let hemicube = hemicube.look((site, normal), turn(vertex.index() as f64));
         let mut irradiance = Rgb::ZERO;
         let mut view = View::new();
         for sight in hemicube.sights().filter(|sight| sight.front) {

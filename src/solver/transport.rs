@@ -9,7 +9,7 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use crate::form_factor::contour::point_to_polygon;
-use crate::form_factor::hemicube::{Hemicube, Sight};
+use crate::form_factor::hemicube::{Hemicube, Sight, turn};
 use crate::mesh::{ElementId, Mesh, PatchId};
 use crate::surface::Surfaces;
 use crate::surface::polygon::centroid;
@@ -62,7 +62,7 @@ pub(super) fn row(
     while let Some(source) = open.pop() {
         let place = Place::new(mesh, surfaces, source);
         let eye = (place.centre, place.normal);
-        let hemicube = hemicube.look(eye, turn(source.index()));
+        let hemicube = hemicube.look(eye, turn(source.index() as f64));
         let parts = &mesh[source].children;
         let divisible = mesh[source].level < LOOK_LEVELS && !parts.is_empty();
         if divisible && hemicube.share_within(CLOSE * place.size) > CLOSE_SHARE {
@@ -80,13 +80,6 @@ pub(super) fn row(
         }
     }
     row
-}
-
-/// Angle by which the `index`-th hemicube is turned, radians: no two alike, so that their cells'
-/// errors do not add up.
-pub(super) fn turn(index: usize) -> f64 {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    (index as f64 * GOLDEN).fract() * std::f64::consts::FRAC_PI_2
 }
 
 /// Finds the links between a shooter and a patch that it sees.

@@ -5,6 +5,7 @@ use smallvec::SmallVec;
 
 use super::shaft::{Pieces, subtract};
 use super::{Facet, HalfSpace, Occluder, Occluders, Polygon};
+use crate::scene::area_vector;
 
 /// Corners nearer to each other than this share of the tolerance are one.
 const ROUNDING: f64 = 1e-3;
@@ -33,7 +34,7 @@ impl Occluders {
         let parts = near.filter_map(|occluder| inside(occluder, &hull, tolerance));
         // What hides most comes first: it leaves the others little to cut.
         let mut parts: Vec<(f64, Occluder)> =
-            parts.map(|part| (shade(&part, along), part)).collect();
+            parts.map(|part| (area_vector(&part.corners).dot(along).abs(), part)).collect();
         parts.sort_by(|(a, _), (b, _)| b.total_cmp(a));
         Between { parts: parts.into_iter().map(|(_, part)| part).collect(), tolerance, hides_all }
     }
@@ -114,13 +115,6 @@ impl Between {
         }
         pieces
     }
-}
-
-/// Area of an occluder as seen along a direction, m².
-fn shade(occluder: &Occluder, along: DVec3) -> f64 {
-    let first = occluder.corners[0];
-    let fan = occluder.corners.windows(2).map(|edge| (edge[0] - first).cross(edge[1] - first));
-    fan.sum::<DVec3>().dot(along).abs() / 2.0
 }
 
 /// The part of an occluder inside of all half spaces, if there is one.

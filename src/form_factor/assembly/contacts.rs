@@ -10,6 +10,7 @@ use super::Row;
 use crate::form_factor::hemicube::frame;
 use crate::form_factor::rays::Sphere;
 use crate::mesh::Patch;
+use crate::scene::area_vector;
 use crate::visibility::{HalfSpace, Occluders, PatchHierarchy, Polygon};
 
 /// Rays that tell whether a place is within a solid.
@@ -101,9 +102,7 @@ impl Contact {
     }
 
     fn area(&self) -> f64 {
-        let first = self.overlap[0];
-        let fan = self.overlap.windows(2).map(|e| (e[0] - first).cross(e[1] - first));
-        fan.sum::<DVec3>().length() / 2.0
+        area_vector(&self.overlap).length()
     }
 
     fn holds(&self, point: DVec3) -> bool {

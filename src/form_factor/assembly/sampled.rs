@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::Row;
 use super::contacts::Contacts;
+use crate::form_factor::hemicube;
 use crate::form_factor::pair::{place_in, quadrilaterals};
 use crate::mesh::Patch;
 
@@ -106,9 +107,7 @@ fn points(patch: &Patch, cells: u32) -> Vec<(DVec3, f64)> {
     points
 }
 
-/// Angle of the `index`-th view, radians: no two alike, so that their errors do not add up, and none
-/// along the walls of a room.
+/// Angle of the `index`-th view, radians, none along the walls of a room.
 pub(super) fn turn(index: usize) -> f64 {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    ((index as f64 + 0.5) * GOLDEN).fract() * std::f64::consts::FRAC_PI_2
+    hemicube::turn(index as f64 + 0.5)
 }

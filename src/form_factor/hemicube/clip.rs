@@ -22,9 +22,9 @@ const BELOW: u32 = 1 << 6;
 #[derive(Debug)]
 pub(super) struct Face {
     /// Which of x, y, z are a, b and w.
-    axes: [usize; 3],
+    pub(super) axes: [usize; 3],
     /// Whether w looks along or against its axis.
-    sign: f32,
+    pub(super) sign: f32,
     /// Smallest b / w: -1 for the top, 0 for the half faces.
     pub(super) lowest: f32,
     /// Bits of [`Corners::sides`] that are clear, and that are set, for what the face sees.

@@ -322,6 +322,13 @@ impl WithSimd for Share<'_, '_> {
     }
 }
 
+/// Angle by which the `index`-th hemicube is turned, radians: no two alike, so that their cells'
+/// errors do not add up.
+pub(crate) fn turn(index: f64) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    (index * GOLDEN).fract() * std::f64::consts::FRAC_PI_2
+}
+
 /// Rotation into the axes of a hemicube: its rows are the hemicube's x, y and z.
 pub(super) fn frame(normal: DVec3, turn: f64) -> DMat3 {
     let (sine, cosine) = turn.sin_cos();

@@ -13,21 +13,12 @@
 use glam::{DMat3, DVec3, Vec3};
 
 use super::cells::Cells;
+use super::clip::{self, FACES};
 use crate::visibility::PatchHierarchy;
 use crate::visibility::packet::{NOTHING, Packet, RAYS};
 
 /// Cells of a packet: columns and rows of a small block.
 const BLOCK: [usize; 2] = [4, RAYS / 4];
-
-/// Axes of a face's columns, rows and depth in the hemicube's frame, the sign of the depth axis,
-/// and the lowest row's border.
-const FACES: [([usize; 3], f64, f64); 5] = [
-    ([0, 1, 2], 1.0, -1.0),
-    ([1, 2, 0], 1.0, 0.0),
-    ([1, 2, 0], -1.0, 0.0),
-    ([0, 2, 1], 1.0, 0.0),
-    ([0, 2, 1], -1.0, 0.0),
-];
 
 /// One face's cells as directions in space: at (column, row),
 /// `corner + by_column * column + by_row * row`, of depth one.
@@ -42,7 +33,7 @@ struct Face {
 pub(super) fn fill(hierarchy: &PatchHierarchy, (eye, frame): (DVec3, &DMat3), cells: &mut Cells) {
     let resolution = cells.resolution();
     let mut packets = Vec::new();
-    for (number, face) in FACES.into_iter().enumerate() {
+    for (number, face) in FACES.iter().enumerate() {
         let face = Face::new(face, frame, resolution);
         for row in (0..face.rows).step_by(BLOCK[1]) {
             packets.clear();
@@ -67,14 +58,15 @@ fn cell(column: usize, row: usize, ray: usize) -> (usize, usize) {
 }
 
 impl Face {
-    fn new(([a, b, w], sign, lowest): ([usize; 3], f64, f64), frame: &DMat3, n: usize) -> Self {
+    fn new(face: &clip::Face, frame: &DMat3, n: usize) -> Self {
+        let ([a, b, w], sign, lowest) = (face.axes, f64::from(face.sign), f64::from(face.lowest));
         let step = 2.0 / n as f64;
         let (x, y, z) = (frame.row(a), frame.row(b), frame.row(w) * sign);
         Self {
             corner: (z + x * (0.5 * step - 1.0) + y * (0.5 * step + lowest)).as_vec3(),
             by_column: (x * step).as_vec3(),
             by_row: (y * step).as_vec3(),
-            rows: if lowest < 0.0 { n } else { n / 2 },
+            rows: face.rows(n),
         }
     }
 

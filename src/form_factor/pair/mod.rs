@@ -11,6 +11,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::contour::point_to_polygon_above;
+use crate::scene::area_vector;
 use crate::visibility::{Facet, HalfSpace, Polygon};
 
 pub use occluded::visible_exchange;
@@ -51,7 +52,7 @@ pub fn exchange(a: Facet<'_>, b: Facet<'_>) -> f64 {
 pub fn by_contours(a: &[DVec3], b: &[DVec3]) -> f64 {
     let unit = Round::about(a).centre.distance(Round::about(b).centre);
     let unit = if unit > 0.0 { unit } else { 1.0 };
-    let smaller = vector_area(a).length().min(vector_area(b).length());
+    let smaller = area_vector(a).length().min(area_vector(b).length());
     let tolerance = ACCURACY * smaller;
     let pairs = edges_of(a).flat_map(|x| edges_of(b).map(move |y| (x, y)));
     let sum: f64 = pairs.map(|(x, y)| log_distance(x, y, unit, tolerance)).sum();
@@ -78,11 +79,6 @@ fn in_front(facet: Facet<'_>, other: Facet<'_>) -> Option<Polygon> {
 
 fn edges_of(polygon: &[DVec3]) -> impl Iterator<Item = [DVec3; 2]> + Clone + '_ {
     (0..polygon.len()).map(|k| [polygon[k], polygon[(k + 1) % polygon.len()]])
-}
-
-/// Half the sum of cross products: the normal times the area, m².
-fn vector_area(polygon: &[DVec3]) -> DVec3 {
-    edges_of(polygon).map(|[a, b]| (a - polygon[0]).cross(b - polygon[0])).sum::<DVec3>() / 2.0
 }
 
 /// A sphere around a polygon.

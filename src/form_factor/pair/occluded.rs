@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::cubature::{at, quadrilaterals};
 use super::{Round, exchange, in_front, is_level};
 use crate::form_factor::contour::point_to_polygon_above;
+use crate::scene::area_vector;
 use crate::visibility::{Between, Facet, Occluders};
 
 /// Most cells that a polygon is divided in.
@@ -49,7 +50,7 @@ pub fn visible_exchange(occluders: &Occluders, a: Facet<'_>, b: Facet<'_>, toler
 }
 
 fn area(facet: Facet<'_>) -> f64 {
-    super::vector_area(facet.corners).length()
+    area_vector(facet.corners).length()
 }
 
 /// One polygon as seen from points on another.

@@ -13,8 +13,8 @@ pub struct System {
     pub(super) factors: FormFactors,
     pub(super) reflectance: Vec<Rgb>,
     pub(super) exitance: Vec<Rgb>,
-    /// By patch: who sees it, as (j, `F[j][i]`), j ascending.
-    seen_by: Vec<Vec<(usize, f64)>>,
+    /// By patch: who sees it.
+    seen_by: FormFactors,
 }
 
 /// What came of a relaxation.
@@ -37,17 +37,13 @@ impl System {
     pub fn new(factors: FormFactors, reflectance: Vec<Rgb>, exitance: Vec<Rgb>) -> Result<Self> {
         let n = factors.len();
         assert_eq!([reflectance.len(), exitance.len()], [n, n], "one of each for every patch");
-        let mut seen_by = vec![Vec::new(); n];
         for patch in 0..n {
             let sum = factors.row(patch).map(|(_, factor)| factor.abs()).sum();
             check_reflectance(reflectance[patch], format_args!("patch {patch}"))?;
             check_row(patch, reflectance[patch], sum)?;
             check_exitance(patch, exitance[patch])?;
-            for (seen, factor) in factors.row(patch) {
-                seen_by[seen].push((patch, factor));
-            }
         }
-        Ok(Self { factors, reflectance, exitance, seen_by })
+        Ok(Self { seen_by: factors.transposed(), factors, reflectance, exitance })
     }
 
     /// Number of patches.
@@ -131,7 +127,7 @@ impl Residuals for State<'_> {
         let change = released / self.system.diagonal(row);
         self.radiosity[row] += change;
         self.residual[row] -= released;
-        for &(receiver, factor) in &self.system.seen_by[row] {
+        for (receiver, factor) in self.system.seen_by.row(row) {
             if receiver != row {
                 self.residual[receiver] += self.system.reflectance[receiver] * factor * change;
             }
