@@ -40,8 +40,8 @@ pub(crate) struct Solve {
 
     /// How the exchange of reflected light converged: residual and unshot share, patch by patch
     ///
-    /// Columns: round (light is exchanged twice, the second time on the finer mesh), shots so far, the
-    /// patch that was next, the largest residual in W/m², and the unshot share of the emitted power.
+    /// Columns: shots so far, the patch that was next, the largest residual in W/m², and the unshot
+    /// share of the emitted power.
     #[arg(long, value_name = "FILE.csv", help_heading = "Writing")]
     history: Option<PathBuf>,
 

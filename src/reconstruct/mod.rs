@@ -4,6 +4,7 @@
 //! neighbours agree on their border, within a surface and where surfaces meet. Light is shared by
 //! leaves that share a vertex of the mesh, which those on two sides of a contact line do not.
 
+mod fit;
 mod normal;
 mod sheet;
 mod smooth;

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DVec2, DVec3};
 
+use super::fit::{Fit, Known};
 use super::normal::normal_at;
 use super::stitch::Places;
 use super::triangulate::triangulate;
@@ -88,8 +89,10 @@ impl Sheet {
         let tiles = triangulate(&loops, |place| surface.plane.flatten(places.at(place)));
         let triangle =
             |tile: &super::triangulate::Tile| tile.corners.map(|p| numbered[tile.leaf][&p]);
+        let triangles: Vec<[u32; 3]> = tiles.iter().map(triangle).collect();
+        builder.fit(leaves, tiles.iter().map(|tile| tile.leaf).zip(&triangles));
         Self {
-            triangles: tiles.iter().map(triangle).collect(),
+            triangles,
             corners: builder.finish(),
             curved: !surface.normals.is_empty(),
             material: surface.material,
@@ -152,6 +155,30 @@ impl Builder<'_> {
         });
         self.looks[number as usize].add(look);
         number
+    }
+
+    /// Moves light at the corners so that triangles hold what leaves do.
+    fn fit<'t>(
+        &mut self,
+        leaves: &[ElementId],
+        tiles: impl Iterator<Item = (usize, &'t [u32; 3])>,
+    ) {
+        let known: Vec<Option<Known>> =
+            leaves.iter().map(|&leaf| Known::new(self.mesh, leaf)).collect();
+        let mut fits = vec![Fit::default(); self.corners.len()];
+        for (leaf, corners) in tiles {
+            let Some(known) = known[leaf] else { continue };
+            let corners = corners.map(|corner| corner as usize);
+            let at = |corner: usize| self.places.at(self.corners[corner].0.place);
+            let outline = corners.map(|corner| self.surface.plane.flatten(at(corner)));
+            let shares = known.shares(outline);
+            for (corner, (lack, area)) in corners.into_iter().zip(shares) {
+                fits[corner].add(lack, area, known.range);
+            }
+        }
+        for ((_, light), fit) in self.corners.iter_mut().zip(&fits) {
+            *light = fit.moved(*light);
+        }
     }
 
     /// The corners with their radiosities: B = E + ρ H, texture means included.

@@ -70,9 +70,6 @@ fn corners(mesh: &Mesh, elements: &[ElementId]) -> Vec<VertexId> {
 pub(super) fn interpolate(mesh: &mut Mesh) {
     for index in 0..mesh.elements.len() {
         let element = ElementId(index as u32);
-        if mesh[element].is_leaf() {
-            continue;
-        }
         let Some(middle) = mesh.find_middle(element) else { continue };
         let corners = mesh[element].corners.clone();
         let at = |mesh: &Mesh, v: VertexId| mesh[v].indirect.unwrap_or(Rgb::ZERO);
