@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::mesh::{ElementId, Mesh, PatchId};
+use crate::mesh::{Element, ElementId, Mesh, PatchId, VertexId};
 
 /// Finds elements on patches; made once for a mesh as it is.
 ///
@@ -123,9 +123,8 @@ impl ElementMap {
                 self.leaves.len() as u32 - 1
             }
             (_, &[left, right]) => {
-                let second = mesh[element.children[0]].corners[0] != element.corners[0];
-                let k = usize::from(second);
-                self.branch(middle(k), middle(k + 2), [right, left])
+                let [from, to] = cut(mesh, element).map(|v| unit.place(mesh[v].position));
+                self.branch(from, to, [right, left])
             }
             (3, &[a, b, c, middle_part]) => {
                 let other = self.branch(middle(2), middle(1), [middle_part, c]);
@@ -185,6 +184,16 @@ impl ElementMap {
         }
         found - grid.leaves.start as u32
     }
+}
+
+/// The ends of the edge that the two parts of an element share, the first part to its left.
+fn cut(mesh: &Mesh, element: &Element) -> [VertexId; 2] {
+    let corners = |part: usize| &mesh[element.children[part]].corners;
+    let (first, second) = (corners(0), corners(1));
+    let n = first.len();
+    let shared = |v: &VertexId| second.iter().any(|&w| mesh[w].position == mesh[*v].position);
+    let edges = (0..n).map(|k| [first[k], first[(k + 1) % n]]);
+    edges.into_iter().find(|edge| edge.iter().all(shared)).unwrap_or([first[0], first[n - 1]])
 }
 
 /// The smallest power of two not below a number, up to the most cells of a grid.
