@@ -106,6 +106,18 @@ impl Mesh {
         self.index.vertices.get(&(surface, place, side)).copied()
     }
 
+    /// Another vertex at the same place, for the light there on the side of a place inside.
+    pub(super) fn copy_towards(&mut self, patch: PatchId, vertex: VertexId, inside: DVec2) -> VertexId {
+        let plane = &self.index.sheets[self[patch].surface as usize].plane;
+        let mut copy = self[vertex].clone();
+        let inward = (inside - copy.position).normalize_or_zero();
+        let reach = (2.0 * INSET * self.index.tolerance).min(0.2 * inside.distance(copy.position));
+        copy.site = plane.lift(copy.position + inward * reach);
+        (copy.direct, copy.indirect) = (None, None);
+        self.vertices.push(copy);
+        VertexId(self.vertices.len() as u32 - 1)
+    }
+
     fn on_contact(&self, patch: PatchId, position: DVec2) -> bool {
         let Patch { surface, contacts, .. } = &self[patch];
         let segments = &self.index.sheets[*surface as usize].contacts;

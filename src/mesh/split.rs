@@ -128,7 +128,16 @@ impl Mesh {
             part.push(ends[to]);
             part
         };
-        let parts = [part(0, 1), part(1, 0)];
+        let mut parts = [part(0, 1), part(1, 0)];
+        for part in &mut parts {
+            let outline: Convex = part.iter().map(|&v| self[v].position).collect();
+            let inside = polygon::centroid(&outline);
+            for corner in [0, part.len() - 1] {
+                if self[part[corner]].on_contact && corners.contains(&part[corner]) {
+                    part[corner] = self.copy_towards(patch, part[corner], inside);
+                }
+            }
+        }
         parts.into_iter().collect()
     }
 

@@ -130,7 +130,7 @@ impl Oracle {
 }
 
 impl Errors {
-    fn new(corners: &[Rgb], middle: &Middle, light: impl Fn(crate::mesh::VertexId) -> Rgb) -> Self {
+    fn new(corners: &[Rgb], middle: &Middle, light: impl Fn(VertexId) -> Rgb) -> Self {
         let n = corners.len();
         let edges: SmallVec<[Rgb; 8]> = middle.edges.iter().map(|&v| light(v)).collect();
         let centre = light(middle.centre);
