@@ -16,12 +16,16 @@ use super::element_map::{ElementMap, Grid};
 use super::raster::{LANES, count_up, rounded};
 use super::{Hemicube, Print};
 
+/// Parts of a list of cells that are added to leaves in turns.
+const STREAMS: usize = 4;
+
 /// Delta form factors summed by element, reused from look to look.
 #[derive(Clone, Debug)]
 pub struct ElementSums<'a> {
     map: &'a ElementMap,
     spots: Spots,
-    one: PatchSums,
+    /// Sums of the leaves of one patch, counted from its first; zero between patches.
+    sums: Vec<f32>,
     seen: Vec<(u32, f32)>,
 }
 
@@ -34,15 +38,6 @@ struct Spots {
     leaves: Vec<u32>,
     /// Their delta factors.
     shares: Vec<f32>,
-}
-
-/// Sums of the leaves of one patch, counted from its first.
-#[derive(Clone, Debug)]
-struct PatchSums {
-    /// Zero between patches.
-    sums: Vec<f32>,
-    /// Leaves that were seen; room for one more than there are.
-    touched: Vec<u32>,
 }
 
 /// A piece of a patch as a face of a hemicube sees it.
@@ -65,17 +60,15 @@ impl<'a> ElementSums<'a> {
     /// Sums that are all zero.
     pub fn new(map: &'a ElementMap) -> Self {
         let most = map.grids.iter().map(|grid| grid.leaves.len()).max().unwrap_or(0);
-        let one = PatchSums { sums: vec![0.0; most], touched: vec![0; most + 1] };
-        Self { map, spots: Spots::default(), one, seen: Vec::new() }
+        Self { map, spots: Spots::default(), sums: vec![0.0; most], seen: Vec::new() }
     }
 
     /// The leaves that a hemicube sees, patch by patch, by their numbers in [`ElementMap::leaves`], each
     /// with the sum of the delta factors of its cells.
     pub fn of(&mut self, hemicube: &Hemicube<'_>) -> &[(u32, f32)] {
         self.spots.make_room(hemicube.delta.resolution());
-        self.seen.clear();
-        hemicube.arch.dispatch(Summing { sums: self, hemicube });
-        &self.seen
+        let count = hemicube.arch.dispatch(Summing { sums: self, hemicube });
+        &self.seen[..count]
     }
 }
 
@@ -85,36 +78,61 @@ struct Summing<'s, 'a, 'h> {
 }
 
 impl WithSimd for Summing<'_, '_, '_> {
-    type Output = ();
+    /// How many leaves are seen.
+    type Output = usize;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self { sums: ElementSums { map, spots, one, seen }, hemicube } = self;
+    fn with_simd<S: Simd>(self, simd: S) -> usize {
+        let Self { sums: ElementSums { map, spots, sums, seen }, hemicube } = self;
+        let mut count = 0;
         for &patch in &hemicube.drawn {
             let Print { last, kept, .. } = hemicube.prints[patch as usize];
             if last == NOTHING {
                 continue;
             }
             let grid = &map.grids[patch as usize];
-            let first = grid.leaves.start as u32;
-            if grid.leaves.len() == 1 {
-                seen.push((first, kept));
-                continue;
+            // One more than there are: cells of leaves seen before write there as well.
+            let room = count + grid.leaves.len() + 1;
+            if seen.len() < room {
+                seen.resize(room, (0, 0.0));
             }
-            let (mut next, mut touched) = (last, 0);
-            while next != NOTHING {
-                let face = usize::from(hemicube.runs[next as usize].face);
-                let count;
-                (count, next) = spots.lay_out(simd, &hemicube.runs, next);
-                spots.look_up(simd, count, (hemicube, face), grid);
-                if !grid.is_regular {
-                    spots.descend(count, map, grid);
-                }
-                touched = one.add(&spots.leaves[..count], &spots.shares[..count], touched);
-            }
-            one.drain(touched, first, seen);
+            let seen = &mut seen[count..room];
+            count += if grid.leaves.len() == 1 {
+                seen[0] = (grid.leaves.start as u32, kept);
+                1
+            } else {
+                let patch = (&**map, grid, last);
+                sum_patch(simd, (hemicube, patch), spots, (sums, seen))
+            };
         }
+        count
     }
+}
+
+/// Lists the leaves of a patch that cells see, from its last run on, and their sums; returns how many.
+#[inline(always)]
+fn sum_patch<S: Simd>(
+    simd: S,
+    (hemicube, (map, grid, last)): (&Hemicube<'_>, (&ElementMap, &Grid, u32)),
+    spots: &mut Spots,
+    (sums, seen): (&mut [f32], &mut [(u32, f32)]),
+) -> usize {
+    let (mut next, mut found) = (last, 0);
+    while next != NOTHING {
+        let face = usize::from(hemicube.runs[next as usize].face);
+        let count;
+        (count, next) = spots.lay_out(simd, &hemicube.runs, next);
+        spots.look_up(simd, count, (hemicube, face), grid);
+        if !grid.is_regular {
+            spots.descend(count, map, grid);
+        }
+        found = spots.scatter(count, sums, (seen, found));
+    }
+    for (leaf, sum) in &mut seen[..found] {
+        *sum = std::mem::take(&mut sums[*leaf as usize]);
+        *leaf += grid.leaves.start as u32;
+    }
+    found
 }
 
 impl Spots {
@@ -183,30 +201,35 @@ impl Spots {
             *leaf = map.leaf(grid, *leaf, [u, v]);
         }
     }
-}
 
-impl PatchSums {
-    /// Adds the factors of cells to the leaves they see; returns how many have been seen.
+    /// Adds the factors of the first `count` cells to the leaves they see, and lists those seen for the
+    /// first time after the `found` that were before; returns how many those are then.
     #[inline(always)]
-    fn add(&mut self, leaves: &[u32], shares: &[f32], mut count: usize) -> usize {
-        for (&leaf, share) in leaves.iter().zip(shares) {
-            let sum = &mut self.sums[leaf as usize];
-            let is_new = *sum == 0.0;
-            *sum += share;
-            self.touched[count] = leaf;
-            count += usize::from(is_new);
+    fn scatter(
+        &self,
+        count: usize,
+        sums: &mut [f32],
+        (seen, mut found): (&mut [(u32, f32)], usize),
+    ) -> usize {
+        let (leaves, shares) = (&self.leaves[..count], &self.shares[..count]);
+        let mut put = |spot: usize| {
+            let sum = &mut sums[leaves[spot] as usize];
+            // Without a branch: nobody could foretell it.
+            seen[found].0 = leaves[spot];
+            found += usize::from(sum.to_bits() == 0);
+            *sum += shares[spot];
+        };
+        // Neighbours often see the same leaf, and a sum is slow to read again just after it was written.
+        let stride = count / STREAMS;
+        for first in 0..stride {
+            for stream in 0..STREAMS {
+                put(stream * stride + first);
+            }
         }
-        count
-    }
-
-    /// Moves the sums of the leaves that have been seen to `seen`; the patch's first has this number.
-    #[inline(always)]
-    fn drain(&mut self, count: usize, first: u32, seen: &mut Vec<(u32, f32)>) {
-        let Self { sums, touched } = self;
-        seen.extend(touched[..count].iter().map(
-            #[inline(always)]
-            |&leaf| (first + leaf, std::mem::take(&mut sums[leaf as usize])),
-        ));
+        for spot in STREAMS * stride..count {
+            put(spot);
+        }
+        found
     }
 }
 
@@ -218,7 +241,7 @@ impl Lens {
         (piece, normal): (&Chart<DVec3>, DVec3),
     ) -> Self {
         let offset = *eye - piece.origin;
-        let plane = *frame * normal / -offset.dot(normal);
+        let plane = *frame * (normal * (-1.0 / offset.dot(normal)));
         let [u, v] = piece.axes.map(
             #[inline(always)]
             |axis| *frame * axis + plane * axis.dot(offset),
