@@ -4,6 +4,8 @@
 //! then looked up in whole registers, and only then added to their leaves one by one: most runs of cells
 //! are too short to fill registers of their own.
 
+use std::array;
+
 use glam::DVec3;
 use pulp::{Simd, WithSimd};
 use smallvec::SmallVec;
@@ -211,23 +213,25 @@ impl Spots {
         sums: &mut [f32],
         (seen, mut found): (&mut [(u32, f32)], usize),
     ) -> usize {
-        let (leaves, shares) = (&self.leaves[..count], &self.shares[..count]);
-        let mut put = |spot: usize| {
-            let sum = &mut sums[leaves[spot] as usize];
+        let mut put = |leaf: u32, share: f32| {
+            let sum = &mut sums[leaf as usize];
             // Without a branch: nobody could foretell it.
-            seen[found].0 = leaves[spot];
+            seen[found].0 = leaf;
             found += usize::from(sum.to_bits() == 0);
-            *sum += shares[spot];
+            *sum += share;
         };
         // Neighbours often see the same leaf, and a sum is slow to read again just after it was written.
-        let stride = count / STREAMS;
-        for first in 0..stride {
-            for stream in 0..STREAMS {
-                put(stream * stride + first);
+        let length = count / STREAMS;
+        let stream = |k: usize| k * length..(k + 1) * length;
+        let leaves: [&[u32]; STREAMS] = array::from_fn(|k| &self.leaves[stream(k)]);
+        let shares: [&[f32]; STREAMS] = array::from_fn(|k| &self.shares[stream(k)]);
+        for spot in 0..length {
+            for (leaves, shares) in leaves.iter().zip(shares) {
+                put(leaves[spot], shares[spot]);
             }
         }
-        for spot in STREAMS * stride..count {
-            put(spot);
+        for spot in STREAMS * length..count {
+            put(self.leaves[spot], self.shares[spot]);
         }
         found
     }
