@@ -85,3 +85,37 @@ pub(super) fn straighten<S: Simd>(simd: S, [g, h]: [f32; 2], [u, v]: [S::f32s; 2
     let s = simd.div_f32s(u, simd.add_f32s(one, simd.mul_f32s(g, t)));
     [s, t]
 }
+
+#[cfg(test)]
+mod tests {
+    use pulp::Scalar;
+
+    use super::*;
+
+    #[test]
+    fn halves_of_opposite_edges_are_halves_of_coordinates() {
+        let outlines = [
+            [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]],
+            [[0.0, 0.0], [3.0, 0.5], [2.0, 2.5], [0.5, 1.0]],
+            // With a corner on the straight line between its neighbours.
+            [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 2.0]],
+        ];
+        for outline in outlines.map(|corners| corners.map(DVec2::from)) {
+            let chart = Chart::new(&outline);
+            let corners = outline.map(|corner| chart.place(corner));
+            let along = |outline: [DVec2; 4], s: f64, t: f64| {
+                outline[0].lerp(outline[1], s).lerp(outline[3].lerp(outline[2], s), t)
+            };
+            for (s, t) in [(0.5, 0.25), (0.125, 0.875), (0.75, 0.5)] {
+                let position = along(outline, s, t);
+                let place = chart.place(position);
+                let expected = along(corners, s, t);
+                assert!(place.distance(expected) < 1e-6, "{place} for {expected}");
+                let oblique = chart.oblique(position).as_vec2().to_array();
+                let [s, t] = straighten(Scalar::new(), chart.bend, oblique);
+                let place = DVec2::new(s.into(), t.into());
+                assert!(place.distance(expected) < 1e-5, "{place} for {expected}");
+            }
+        }
+    }
+}
