@@ -61,9 +61,7 @@ impl AreaLamp {
         for &pivot in &between {
             for (k, &from) in above.iter().enumerate() {
                 let edge = [from, above[(k + 1) % above.len()]];
-                let is_below = |eye: &DVec3| {
-                    receiver.depth(pivot) < HIGHEST * receiver.depth(*eye)
-                };
+                let is_below = |eye: &DVec3| receiver.depth(pivot) < HIGHEST * receiver.depth(*eye);
                 // On the receiver itself, a corner is the beginning of lines, not a line.
                 let stands = receiver.depth(pivot) > f64::EPSILON * pivot.length();
                 if stands && edge.iter().all(is_below) {

@@ -107,7 +107,12 @@ impl Mesh {
     }
 
     /// Another vertex at the same place, for the light there on the side of a place inside.
-    pub(super) fn copy_towards(&mut self, patch: PatchId, vertex: VertexId, inside: DVec2) -> VertexId {
+    pub(super) fn copy_towards(
+        &mut self,
+        patch: PatchId,
+        vertex: VertexId,
+        inside: DVec2,
+    ) -> VertexId {
         let plane = &self.index.sheets[self[patch].surface as usize].plane;
         let mut copy = self[vertex].clone();
         let inward = (inside - copy.position).normalize_or_zero();

@@ -6,8 +6,8 @@ use smallvec::SmallVec;
 use super::strength;
 use crate::direct::Lamps;
 use crate::mesh::{Crossing, ElementId, Mesh, Patch, Split};
+use crate::surface::Surfaces;
 use crate::surface::polygon::{self, Convex, Line, Segment};
-use crate::surface::{Plane, Surfaces};
 use crate::visibility::{Facet, Occluders};
 
 /// A discontinuity line on a patch, and what it carries.
@@ -122,7 +122,9 @@ pub fn cut(
     let mut best: Option<(f64, Split)> = None;
     for line in lines {
         let Some(part) = clipped(line.segment, &borders, tolerance) else { continue };
-        let Some((split, chord, parts)) = chord(&outline, line.segment, tolerance) else { continue };
+        let Some((split, chord, parts)) = chord(&outline, line.segment, tolerance) else {
+            continue;
+        };
         let share = part[0].distance(part[1]) / chord;
         if share < LEAST_CHORD || parts < LEAST_PART {
             continue;
@@ -164,7 +166,8 @@ fn chord(outline: &Convex, segment: Segment, tolerance: f64) -> Option<(Split, f
     let along = at(to) - at(from);
     let is_blunt = |c: Crossing| {
         let edge = |k: usize| outline[(k + 1) % n] - outline[k % n];
-        let sine = |edge: DVec2| (edge.normalize_or_zero().perp_dot(along.normalize_or_zero())).abs();
+        let sine =
+            |edge: DVec2| (edge.normalize_or_zero().perp_dot(along.normalize_or_zero())).abs();
         let before = if c.share == 0.0 { sine(edge(c.edge + n - 1)) } else { 1.0 };
         sine(edge(c.edge)).min(before) >= LEAST_SINE
     };
@@ -177,6 +180,3 @@ fn chord(outline: &Convex, segment: Segment, tolerance: f64) -> Option<(Split, f
     let least = areas[0].min(areas[1]) / (areas[0] + areas[1]);
     Some((Split::Along([from, to]), along.length(), least))
 }
-
-#[allow(unused)]
-fn unused(_: &Plane) {}

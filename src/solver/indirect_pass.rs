@@ -100,7 +100,8 @@ fn along_edges(mesh: &Mesh, corners: &[VertexId], middles: &[VertexId], vertex: 
     let at = |v: VertexId| (mesh[v].position, mesh[v].indirect.unwrap_or(Rgb::ZERO));
     let place = mesh[vertex].position;
     let n = corners.len();
-    let halves = (0..n).flat_map(|k| [[corners[k], middles[k]], [middles[k], corners[(k + 1) % n]]]);
+    let halves =
+        (0..n).flat_map(|k| [[corners[k], middles[k]], [middles[k], corners[(k + 1) % n]]]);
     let gap = |half: &[VertexId; 2]| distance(half.map(|v| at(v).0), place);
     let nearest = halves.min_by(|a, b| gap(a).total_cmp(&gap(b)));
     let [(a, from), (b, to)] = nearest.unwrap_or([corners[0]; 2]).map(at);
