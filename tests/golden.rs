@@ -25,7 +25,7 @@ fn picture(scene: &str) -> RgbImage {
     let picture = render::render(&mesh, &camera, &options);
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("picture.png");
-    let display = Display::Exposed { scale: exposure_scale(&mesh, Exposure::Automatic) };
+    let display = Display::exposed(exposure_scale(&mesh, Exposure::Automatic));
     render::save(&picture, &path, &display).unwrap();
     image::open(path).unwrap().to_rgb8()
 }
