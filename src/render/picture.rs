@@ -101,10 +101,11 @@ pub fn render_solved(
     let mesh = subject.mesh;
     let gather = options.final_gather.then_some(()).and(subject.solved.as_ref());
     let gather = gather.map(|solved| FinalGather::new(solved.surfaces, &solved.solution.mesh));
-    let shade = Shade::new(subject, options.view, gather.as_ref());
+    let shade = Shade::new(subject, options.view);
     let key = shade.key.clone();
     let background = if options.view.shows_radiance() { options.background } else { Rgb::ZERO };
-    let pixels = Tracer::new((camera, options), shade, background).trace(&mut observe);
+    let pixels =
+        Tracer::new((camera, options), shade, background).trace(gather.as_ref(), &mut observe);
     Picture {
         view: options.view,
         width: options.width,

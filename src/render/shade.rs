@@ -31,12 +31,13 @@ pub struct Solved<'a> {
     pub solution: &'a Solution,
 }
 
+/// Direct light at the place itself; without, it is interpolated.
+pub(super) type Gather<'a> = Option<&'a FinalGather<'a>>;
+
 /// Finds the value of a view at any place of a mesh.
 pub(super) struct Shade<'a> {
     pub(super) mesh: &'a TriMesh,
     pub(super) view: View,
-    /// Direct light at the place itself; without, it is interpolated.
-    gather: Option<&'a FinalGather<'a>>,
     /// Values by triangle, in views of the leaves.
     by_triangle: Vec<Rgb>,
     /// What their colours stand for.
@@ -44,11 +45,7 @@ pub(super) struct Shade<'a> {
 }
 
 impl<'a> Shade<'a> {
-    pub(super) fn new(
-        subject: Subject<'a>,
-        view: View,
-        gather: Option<&'a FinalGather<'a>>,
-    ) -> Self {
+    pub(super) fn new(subject: Subject<'a>, view: View) -> Self {
         let mesh = subject.mesh;
         let (by_leaf, key) = match (view, &subject.solved) {
             (View::Level, Some(solved)) => leaves::levels(&solved.solution.mesh),
@@ -59,37 +56,32 @@ impl<'a> Shade<'a> {
         let value = |leaf: &crate::mesh::ElementId| by_leaf.get(leaf.index()).copied();
         let values = mesh.leaves.iter().map(|leaf| value(leaf).unwrap_or_default());
         let by_triangle = if by_leaf.is_empty() { Vec::new() } else { values.collect() };
-        Self { mesh, view, gather, by_triangle, key }
-    }
-
-    /// From now on, evaluates nothing anew.
-    pub(super) fn interpolate(&mut self) {
-        self.gather = None;
+        Self { mesh, view, by_triangle, key }
     }
 
     /// The view's value at a place, linear RGB.
-    pub(super) fn value(&self, hit: &Hit) -> Rgb {
+    pub(super) fn value(&self, hit: &Hit, gather: Gather<'_>) -> Rgb {
         match self.view {
-            View::Light | View::Wireframe | View::Radiosity => self.radiosity(hit) / PI,
-            View::Direct => self.direct(hit),
+            View::Light | View::Wireframe | View::Radiosity => self.radiosity(hit, gather) / PI,
+            View::Direct => self.direct(hit, gather),
             View::Indirect => self.irradiance(hit).indirect,
-            View::Illuminance => self.direct(hit) + self.irradiance(hit).indirect,
+            View::Illuminance => self.direct(hit, gather) + self.irradiance(hit).indirect,
             View::Level | View::Reason | View::Error => {
                 self.by_triangle.get(hit.triangle).copied().unwrap_or_default()
             }
         }
     }
 
-    fn radiosity(&self, hit: &Hit) -> Rgb {
+    fn radiosity(&self, hit: &Hit, gather: Gather<'_>) -> Rgb {
         let interpolated = radiosity_at(self.mesh, hit);
-        let Some(gather) = self.gather else {
+        let Some(gather) = gather else {
             return interpolated;
         };
         let reflectance = gather.reflectance(self.mesh.leaves[hit.triangle]);
         if reflectance == Rgb::ZERO {
             return interpolated;
         }
-        let change = self.direct(hit) - self.irradiance(hit).direct;
+        let change = self.direct(hit, Some(gather)) - self.irradiance(hit).direct;
         let texture = texture_at(self.mesh, hit).unwrap_or(Rgb::ONE);
         (interpolated + reflectance * texture * change).max(Rgb::ZERO)
     }
@@ -98,9 +90,9 @@ impl<'a> Shade<'a> {
     ///
     /// What the vertices say, changed by as much as they are wrong here about the light on this
     /// facet: so facets of a curved surface share their light with final gathering as without.
-    fn direct(&self, hit: &Hit) -> Rgb {
+    fn direct(&self, hit: &Hit, gather: Gather<'_>) -> Rgb {
         let Irradiance { direct, direct_on_facet, .. } = self.irradiance(hit);
-        let Some(gather) = self.gather else {
+        let Some(gather) = gather else {
             return direct;
         };
         let corners = self.mesh.triangles[hit.triangle].map(|c| self.mesh.positions[c as usize]);

@@ -1,14 +1,18 @@
 //! Samples of a picture: a few everywhere, all where those differ.
+//!
+//! Evaluating light anew is dear: it is done once in every pixel and, where that or the first samples
+//! of the interpolated picture differ from what is beside them, at all samples.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
+use glam::DVec3;
 use rayon::prelude::*;
 
-use super::caster::{Caster, Sides};
+use super::caster::{Caster, Hit, Sides};
 use super::lines::line_coverage;
 use super::picture::RenderOptions;
 use super::rays::Rays;
-use super::shade::Shade;
+use super::shade::{Gather, Shade};
 use crate::colour::Rgb;
 use crate::scene::Camera;
 
@@ -18,9 +22,6 @@ const SMOOTH: f64 = 0.03;
 
 /// Pixels between two questions whether to go on.
 const BATCH: usize = 2048;
-
-/// Progress, 0..=1, after the first samples.
-const FIRST_SHARE: f64 = 0.5;
 
 /// Means over a pixel.
 #[derive(Clone, Copy, Debug, Default)]
@@ -40,8 +41,8 @@ pub(super) struct Tracer<'a> {
     background: Rgb,
 }
 
-/// Samples of a pixel, as places in it, 0..1.
-type Places = Vec<(f64, f64)>;
+/// A place in a pixel, 0..1 across and down.
+type Place = (f64, f64);
 
 impl<'a> Tracer<'a> {
     pub(super) fn new(
@@ -53,54 +54,48 @@ impl<'a> Tracer<'a> {
         Self { caster: Caster::new(shade.mesh), shade, rays, options, background }
     }
 
-    /// All pixels, row by row.
-    pub(super) fn trace(mut self, observe: &mut dyn FnMut(f64) -> ControlFlow<()>) -> Vec<Pixel> {
+    /// All pixels, row by row; once told to stop, without evaluating light anew.
+    pub(super) fn trace(
+        self,
+        gather: Gather<'_>,
+        observe: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Vec<Pixel> {
         let count = self.options.width as usize * self.options.height as usize;
         let (first, rest) = places_of_samples(self.options.samples.max(1));
         let all: Vec<usize> = (0..count).collect();
-        let told = |share: f64| if rest.is_empty() { share } else { share * FIRST_SHARE };
-        let mut pixels = self.sample(&all, &first, &mut |share| observe(told(share)));
+        let mut work = Work { tracer: &self, gather, observe };
         if rest.is_empty() {
-            return pixels;
+            return work.sample(&all, &first, 0.0..1.0);
+        }
+        let mut pixels = work.batches(&all, 0.0..0.1, |index, _| self.pixel(index, &first, None));
+        if gather.is_some() {
+            let changes = work.changes(&all, first[first.len() / 2], 0.1..0.5);
+            pixels.iter_mut().zip(changes).for_each(|(pixel, change)| pixel.change(change));
         }
         let rough: Vec<usize> =
             all.into_par_iter().filter(|&index| self.is_rough(&pixels, index)).collect();
-        let told = |share: f64| FIRST_SHARE + share * (1.0 - FIRST_SHARE);
-        let more = self.sample(&rough, &rest, &mut |share| observe(told(share)));
-        let share = rest.len() as f64 / (first.len() + rest.len()) as f64;
-        for (index, more) in rough.into_iter().zip(more) {
-            let pixel = &mut pixels[index];
-            pixel.value = pixel.value.lerp(more.value, share);
-            pixel.coverage += (more.coverage - pixel.coverage) * share;
-            pixel.line += (more.line - pixel.line) * share;
+        if gather.is_some() {
+            let places = [first, rest].concat();
+            let found = work.sample(&rough, &places, 0.5..1.0);
+            rough.into_iter().zip(found).for_each(|(index, pixel)| pixels[index] = pixel);
+        } else {
+            let share = rest.len() as f64 / (first.len() + rest.len()) as f64;
+            let found = work.sample(&rough, &rest, 0.1..1.0);
+            rough.into_iter().zip(found).for_each(|(index, more)| pixels[index].add(&more, share));
         }
         pixels
     }
 
-    /// Pixels by the samples at `places`; once told to stop, without evaluating light anew.
-    fn sample(
-        &mut self,
-        pixels: &[usize],
-        places: &Places,
-        observe: &mut dyn FnMut(f64) -> ControlFlow<()>,
-    ) -> Vec<Pixel> {
-        let mut found = Vec::with_capacity(pixels.len());
-        for batch in pixels.chunks(BATCH) {
-            if observe(found.len() as f64 / pixels.len() as f64).is_break() {
-                self.shade.interpolate();
-            }
-            found.par_extend(batch.par_iter().map(|&index| self.pixel(index, places)));
-        }
-        found
-    }
-
-    fn pixel(&self, index: usize, places: &Places) -> Pixel {
-        let width = self.options.width as usize;
-        let (left, top) = ((index % width) as f64, (index / width) as f64);
+    fn pixel(&self, index: usize, places: &[Place], gather: Gather<'_>) -> Pixel {
         let share = 1.0 / places.len() as f64;
         let mut pixel = Pixel { range: [Rgb::MAX, Rgb::MIN], ..Pixel::default() };
-        for &(x, y) in places {
-            let (value, coverage, line) = self.look(left + x, top + y);
+        for &place in places {
+            let (value, coverage, line) = match self.look(index, place) {
+                Some((direction, hit)) => {
+                    (self.shade.value(&hit, gather), 1.0, self.line(direction, &hit))
+                }
+                None => (self.background, 0.0, 0.0),
+            };
             pixel.value += value * share;
             pixel.coverage += coverage * share;
             pixel.line += line * share;
@@ -109,18 +104,28 @@ impl<'a> Tracer<'a> {
         pixel
     }
 
-    /// Value, coverage and strength of lines at a place in the picture.
-    fn look(&self, x: f64, y: f64) -> (Rgb, f64, f64) {
-        let direction = self.rays.direction(x, y);
-        let hit = self.caster.first(self.rays.eye, direction.normalize(), Sides::Front);
-        let Some(hit) = hit else {
-            return (self.background, 0.0, 0.0);
-        };
-        let line = match self.options.view.shows_lines() {
-            true => line_coverage(self.shade.mesh, &self.rays, direction, &hit),
+    /// By how much evaluating light anew changes the value at a place in a pixel.
+    fn change(&self, index: usize, place: Place, gather: Gather<'_>) -> Rgb {
+        self.look(index, place).map_or(Rgb::ZERO, |(_, hit)| {
+            self.shade.value(&hit, gather) - self.shade.value(&hit, None)
+        })
+    }
+
+    /// What is met at a place in a pixel, and in which direction.
+    fn look(&self, index: usize, (x, y): Place) -> Option<(DVec3, Hit)> {
+        let width = self.options.width as usize;
+        let (left, top) = ((index % width) as f64, (index / width) as f64);
+        let direction = self.rays.direction(left + x, top + y);
+        let hit = self.caster.first(self.rays.eye, direction.normalize(), Sides::Front)?;
+        Some((direction, hit))
+    }
+
+    /// Strength of the mesh's lines.
+    fn line(&self, direction: DVec3, hit: &Hit) -> f64 {
+        match self.options.view.shows_lines() {
+            true => line_coverage(self.shade.mesh, &self.rays, direction, hit),
             false => 0.0,
-        };
-        (self.shade.value(&hit), 1.0, line)
+        }
     }
 
     /// True if a pixel's first samples, and those of the pixels beside it, differ.
@@ -141,14 +146,68 @@ impl<'a> Tracer<'a> {
     }
 }
 
+impl Pixel {
+    /// Adds samples that are a `share` of all.
+    fn add(&mut self, more: &Self, share: f64) {
+        self.value = self.value.lerp(more.value, share);
+        self.coverage += (more.coverage - self.coverage) * share;
+        self.line += (more.line - self.line) * share;
+    }
+
+    /// Changes all samples alike.
+    fn change(&mut self, change: Rgb) {
+        self.value = (self.value + change).max(Rgb::ZERO);
+        self.range = self.range.map(|value| value + change);
+    }
+}
+
+/// Samples on their way, in batches that may be the last ones.
+struct Work<'a, 'b> {
+    tracer: &'a Tracer<'a>,
+    gather: Gather<'a>,
+    observe: &'b mut dyn FnMut(f64) -> ControlFlow<()>,
+}
+
+impl<'a> Work<'a, '_> {
+    /// Pixels by the samples at `places`, told as a part of the whole.
+    fn sample(&mut self, pixels: &[usize], places: &[Place], part: Range<f64>) -> Vec<Pixel> {
+        let tracer = self.tracer;
+        self.batches(pixels, part, |index, gather| tracer.pixel(index, places, gather))
+    }
+
+    /// Changes by evaluating light anew at one place of each pixel.
+    fn changes(&mut self, pixels: &[usize], place: Place, part: Range<f64>) -> Vec<Rgb> {
+        let tracer = self.tracer;
+        self.batches(pixels, part, |index, gather| tracer.change(index, place, gather))
+    }
+
+    fn batches<T: Send>(
+        &mut self,
+        pixels: &[usize],
+        part: Range<f64>,
+        find: impl Fn(usize, Gather<'a>) -> T + Sync,
+    ) -> Vec<T> {
+        let mut found = Vec::with_capacity(pixels.len());
+        for batch in pixels.chunks(BATCH) {
+            let done = found.len() as f64 / pixels.len() as f64;
+            if (self.observe)(part.start + done * (part.end - part.start)).is_break() {
+                self.gather = None;
+            }
+            let gather = self.gather;
+            found.par_extend(batch.par_iter().map(|&index| find(index, gather)));
+        }
+        found
+    }
+}
+
 /// A place and those beside it, out of `count`.
-fn around(place: usize, count: usize) -> std::ops::Range<usize> {
+fn around(place: usize, count: usize) -> Range<usize> {
     place.saturating_sub(1)..(place + 2).min(count)
 }
 
 /// Places in a pixel of `samples` squared samples: those that come first, one a row and column, and
 /// the rest.
-fn places_of_samples(samples: u32) -> (Places, Places) {
+fn places_of_samples(samples: u32) -> (Vec<Place>, Vec<Place>) {
     let is_first = |i: u32, j: u32| samples < 3 || j == (2 * i + 1) % (samples | 1);
     let all = (0..samples).flat_map(|i| (0..samples).map(move |j| (i, j)));
     let (first, rest): (Vec<_>, Vec<_>) = all.partition(|&(i, j)| is_first(i, j));
@@ -160,7 +219,7 @@ fn places_of_samples(samples: u32) -> (Places, Places) {
 
 /// Place in a pixel, 0..1, of sample `i`, `j` out of `samples` squared: on a grid turned so that
 /// no two samples share a row or column, which grades edges near the axes finest.
-fn place_of_sample(i: u32, j: u32, samples: u32) -> (f64, f64) {
+fn place_of_sample(i: u32, j: u32, samples: u32) -> Place {
     let [i, j, n] = [i, j, samples].map(f64::from);
     ((i + (j + 0.5) / n) / n, (j + (n - i - 0.5) / n) / n)
 }

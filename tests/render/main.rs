@@ -1,5 +1,10 @@
 //! Pictures show what the mesh carries, whoever computes them.
 
+#[path = "../common/mod.rs"]
+mod common;
+mod final_gather;
+mod views;
+
 use std::f64::consts::PI;
 use std::path::Path;
 
