@@ -46,10 +46,11 @@ pub struct RenderOptions {
     pub width: u32,
     /// Rows, default 600.
     pub height: u32,
-    /// Rays a pixel along each axis, at least 1, default 4. From 3 on, pixels that look smooth after
-    /// the first few, one a row and column of the grid, get no more.
+    /// Rays a pixel along each axis, at least 1, default 4. From 3 on, pixels that look smooth, with
+    /// those beside them, after the first few rays, one a row and column of the grid, get no more.
     pub samples: u32,
-    /// Whether to evaluate direct light anew at every sample, which needs a [`Solved`]; default no.
+    /// Whether to evaluate direct light anew at every sample, or at one in smooth pixels, instead of
+    /// interpolating it, which needs a [`Solved`]; default no.
     pub final_gather: bool,
     /// Radiance where there is no mesh, W/(m² sr), default 0; not in views of other quantities.
     pub background: Rgb,
@@ -87,8 +88,8 @@ pub fn render(mesh: &TriMesh, camera: &Camera, options: &RenderOptions) -> Pictu
     render_solved(subject, camera, options, |_| ControlFlow::Continue(()))
 }
 
-/// The same of a solution, with all views; with [`RenderOptions::final_gather`], direct light is exact
-/// at every sample, not interpolated.
+/// The same of a solution, with all views; with [`RenderOptions::final_gather`], direct light is
+/// exact where it is shown, not interpolated.
 ///
 /// `observe` is told how much is done, 0..=1; when it breaks off, the rest of the picture is
 /// interpolated.

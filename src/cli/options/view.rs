@@ -57,9 +57,9 @@ pub(crate) struct PictureOptions {
     #[arg(long, value_enum, value_delimiter = ',', default_value = "light")]
     view: Vec<Shown>,
 
-    /// Evaluate direct light anew at every sample of the picture, for edges of shadows finer than the mesh
+    /// Evaluate direct light anew at the samples of the picture, for shadows finer than the mesh
     ///
-    /// Reflected light is that of the solution. Ctrl-C interpolates the rest of the picture.
+    /// Reflected light is that of the solution; smooth pixels get one evaluation, others sixteen. Ctrl-C interpolates the rest of the picture.
     #[arg(long)]
     final_gather: bool,
 }
