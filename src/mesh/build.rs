@@ -132,7 +132,7 @@ impl Mesh {
 
     /// Where to evaluate light for a place on a patch: moved inwards until it is a hair away from
     /// every border, so that what stands along a border is seen from the patch's side.
-    fn site(&self, patch: PatchId, position: DVec2) -> DVec3 {
+    pub fn site(&self, patch: PatchId, position: DVec2) -> DVec3 {
         let Patch { surface, corners, normal, area, .. } = &self[patch];
         let edges = || corners.iter().zip(corners.iter().cycle().skip(1));
         let perimeter: f64 = edges().map(|(a, b)| a.distance(*b)).sum();

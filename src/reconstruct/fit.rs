@@ -10,7 +10,7 @@ use glam::DVec2;
 use nalgebra::{Matrix6, Vector6};
 
 use crate::colour::Rgb;
-use crate::mesh::{ElementId, Mesh, Middle, VertexId};
+use crate::mesh::{ElementId, Mesh, Middle, Vertex};
 
 /// Second derivatives of irradiance along the axes of a surface's plane: xx, xy, yy, W/m⁴.
 #[derive(Clone, Copy, Debug)]
@@ -41,23 +41,22 @@ pub(super) struct Known {
 }
 
 impl Known {
-    /// Of a leaf with light in its middle, by least squares.
-    pub(super) fn new(mesh: &Mesh, leaf: ElementId) -> Option<Self> {
+    /// Of a leaf with light at its corners and in its middle, by least squares.
+    pub(super) fn new(
+        mesh: &Mesh,
+        leaf: ElementId,
+        light: impl Fn(&Vertex) -> Option<Rgb>,
+    ) -> Option<Self> {
         let Middle { edges, centre } = mesh.find_middle(leaf)?;
-        let points = || mesh[leaf].corners.iter().chain(&edges).chain([&centre]).copied();
-        let is_lit = |v: VertexId| mesh[v].direct.is_some() && mesh[v].indirect.is_some();
-        if !points().all(is_lit) {
-            return None;
-        }
         let (origin, size) = (mesh[centre].position, mesh[leaf].area.sqrt());
         let mut moments = Matrix6::zeros();
         let mut sums = [Vector6::zeros(); 3];
         let mut range = [Rgb::INFINITY, Rgb::NEG_INFINITY];
-        for vertex in points() {
+        for &vertex in mesh[leaf].corners.iter().chain(&edges).chain([&centre]) {
+            let light = light(&mesh[vertex])?;
             let DVec2 { x, y } = (mesh[vertex].position - origin) / size;
             let row = Vector6::new(x * x / 2.0, x * y, y * y / 2.0, x, y, 1.0);
             moments += row * row.transpose();
-            let light = mesh[vertex].irradiance();
             for (sum, light) in sums.iter_mut().zip(light.to_array()) {
                 *sum += row * light;
             }
@@ -86,7 +85,8 @@ impl Known {
 }
 
 impl Fit {
-    pub(super) fn add(&mut self, lack: Rgb, mass: f64, [least, most]: [Rgb; 2]) {
+    /// Adds a triangle around the vertex, of a leaf with this range of light.
+    pub(super) fn add(&mut self, (lack, mass): (Rgb, f64), [least, most]: [Rgb; 2]) {
         self.lack += lack;
         self.mass += mass;
         self.range = [self.range[0].min(least), self.range[1].max(most)];

@@ -91,6 +91,19 @@ impl Oracle {
         Some(halves.unwrap_or(round))
     }
 
+    /// The error of interpolation found in the middle of an element, as a share of what it is allowed.
+    pub fn excess(
+        &self,
+        (mesh, element): (&Mesh, ElementId),
+        middle: &Middle,
+        light: impl Fn(&Vertex) -> Rgb,
+    ) -> f64 {
+        let corners: SmallVec<[Rgb; 4]> =
+            mesh[element].corners.iter().map(|&v| light(&mesh[v])).collect();
+        let errors = Errors::new(&corners, middle, |v| light(&mesh[v]));
+        errors.largest() / self.allowed(mesh, element, &corners).max(f64::MIN_POSITIVE)
+    }
+
     /// The direction in which cutting a quadrilateral once is enough, if there is one.
     fn halving(&self, sides: [f64; 2], errors: &Errors, allowed: f64) -> Option<Split> {
         let leaves = |k: usize| errors.edges[1 - k].max(errors.across[k]);

@@ -125,8 +125,8 @@ fn pictures_of_a_solved_glb_may_be_taken_from_anywhere() {
     };
     let plain = render(&[]);
     assert!(plain.starts_with(PNG));
-    for more in [&["--wireframe"][..], &["--false-colour"], &["--false-colour", "lux"]] {
-        assert_ne!(render(more), plain, "{more:?}");
+    for more in [["--view", "wireframe"], ["--view", "radiosity"]] {
+        assert_ne!(render(&more), plain, "{more:?}");
     }
 }
 
