@@ -14,12 +14,17 @@ use crate::surface::{Plane, Surfaces, Weld, mean_texture};
 /// How far inside a border light is evaluated, in tolerances: well beyond what counts as touching it.
 const INSET: f64 = 50.0;
 
+/// Ends of cuts less than this many tolerances from a vertex are moved there.
+const CLOSE: f64 = 200.0;
+
 /// Finds the vertex at a place.
 #[derive(Clone, Debug)]
 pub(super) struct VertexIndex {
     sheets: Vec<Sheet>,
     /// By surface, place on it, and, where a contact line runs through it, patch.
     vertices: HashMap<(u32, u32, Option<PatchId>), VertexId>,
+    /// Places of vertices in space, one of those that are close to each other.
+    landmarks: Weld,
     tolerance: f64,
 }
 
@@ -93,6 +98,8 @@ impl Mesh {
         if vertex == new {
             let site = self.site(patch, position);
             let (direct, indirect) = (None, None);
+            let plane = &self.index.sheets[surface as usize].plane;
+            self.index.landmarks.number(plane.lift(position));
             self.vertices.push(Vertex { surface, position, site, on_contact, direct, indirect });
         }
         vertex
@@ -104,6 +111,21 @@ impl Mesh {
         let place = self.index.sheets[surface as usize].places.find(position.extend(0.0))?;
         let side = self.on_contact(patch, position).then_some(patch);
         self.index.vertices.get(&(surface, place, side)).copied()
+    }
+
+    /// The vertex of a patch at a place on an edge; where one is close by, of any surface, that place.
+    pub(super) fn vertex_on(&mut self, patch: PatchId, edge: Segment, position: DVec2) -> VertexId {
+        let Sheet { plane, .. } = &self.index.sheets[self[patch].surface as usize];
+        let landmarks = &self.index.landmarks;
+        let close =
+            landmarks.find(plane.lift(position)).map(|number| landmarks.places()[number as usize]);
+        let flat = |place: glam::DVec3| {
+            let flat = plane.flatten(place);
+            let aside = polygon::distance(edge, flat).max(plane.lift(flat).distance(place));
+            (aside <= 0.1 * self.index.tolerance).then_some(flat)
+        };
+        let position = close.and_then(flat).unwrap_or(position);
+        self.vertex(patch, position)
     }
 
     /// Another vertex at the same place, for the light there on the side of a place inside.
@@ -169,7 +191,8 @@ impl VertexIndex {
             places: Weld::new(tolerance),
         };
         let sheets = surfaces.list.iter().map(sheet).collect();
-        Self { sheets, vertices: HashMap::new(), tolerance }
+        let landmarks = Weld::new(CLOSE * tolerance);
+        Self { sheets, vertices: HashMap::new(), landmarks, tolerance }
     }
 }
 

@@ -114,7 +114,8 @@ impl Mesh {
             if share == 0.0 {
                 return corners[edge];
             }
-            self.vertex(patch, outline[edge].lerp(outline[(edge + 1) % n], share))
+            let ends = [outline[edge], outline[(edge + 1) % n]];
+            self.vertex_on(patch, ends, ends[0].lerp(ends[1], share))
         });
         let part = |from: usize, to: usize| {
             let (start, end) = (crossings[from], crossings[to]);

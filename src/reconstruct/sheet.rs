@@ -91,7 +91,12 @@ impl Sheet {
             loops.push(places);
         }
         let tiles = triangulate(&loops, |place| surface.plane.flatten(places.at(place)));
-        let triangle = |tile: &Tile| tile.corners.map(|p| numbered[tile.leaf][&p]);
+        // Where rounding has brought a stranger into a leaf, any corner at its place will do.
+        let anywhere = |place| numbered.iter().find_map(|numbers| numbers.get(&place)).copied();
+        let corner = |tile: &Tile, place| {
+            numbered[tile.leaf].get(&place).copied().or_else(|| anywhere(place)).unwrap_or_default()
+        };
+        let triangle = |tile: &Tile| tile.corners.map(|place| corner(tile, place));
         let triangles: Vec<[u32; 3]> = tiles.iter().map(triangle).collect();
         builder.fit(leaves, (&tiles, &triangles));
         Self {
