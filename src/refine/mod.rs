@@ -126,7 +126,7 @@ impl Oracle {
         let here = corners.iter().map(|&c| strength(c)).sum::<f64>() / corners.len() as f64;
         let around = (self.level * here.max(0.05 * self.level)).sqrt();
         let size = mesh[element].area.sqrt();
-        self.tolerance * around * (self.plain_size / size).powf(SIZE_POWER).clamp(0.1, 3.0)
+        self.tolerance * around * (self.plain_size / size).powf(SIZE_POWER).clamp(0.1, 5.0)
     }
 
     /// Why an element is divided.
