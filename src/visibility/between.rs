@@ -95,12 +95,6 @@ impl Between {
         self.hides_all
     }
 
-    /// Distance, m, from a point to the nearest corner of what stands between.
-    pub fn distance(&self, point: DVec3) -> f64 {
-        let corners = self.parts.iter().flat_map(|part| &part.corners);
-        corners.map(|corner| corner.distance(point)).fold(f64::INFINITY, f64::min)
-    }
-
     /// The pieces of `source`, one of the two polygons, that `eye`, on the other one, sees.
     ///
     /// The eye must be in front of the source's plane.

@@ -107,6 +107,30 @@ fn facet<'a>(corners: &'a [DVec3], towards: DVec3) -> Facet<'a> {
     Facet::new(corners, normal * normal.dot(towards - corners[0]).signum())
 }
 
+#[test]
+fn metres_and_millimetres_give_the_same_shares() {
+    let square = |z: f64, size: f64, turn: f64| {
+        let corner = |k: u32| {
+            let angle = turn * (std::f64::consts::FRAC_PI_2 * f64::from(k) + 0.3);
+            DVec3::new(size * angle.cos(), size * angle.sin(), z)
+        };
+        [0, 1, 2, 3].map(corner)
+    };
+    let share = |unit: f64| {
+        let scaled = |corners: [DVec3; 4]| corners.map(|corner| corner * unit);
+        let [a, b] = [scaled(square(0.0, 0.8, 1.0)), scaled(square(1.0, 0.6, -1.0))];
+        let blocker = scaled(square(0.6, 0.3, 1.0));
+        let occluders = Occluders::from_polygons(&[&blocker], 1e-7 * unit);
+        let (first, second) = (facet(&a, b[0]), facet(&b, a[0]));
+        visible_exchange(&occluders, first, second, 1e-4) / exchange(first, second)
+    };
+    let metres = share(1.0);
+    assert!((0.2..0.9).contains(&metres), "some of it is hidden: {metres}");
+    for unit in [1e-3, 0.3048, 1e3] {
+        assert!((share(unit) / metres - 1.0).abs() < 1e-9, "{} in units of {unit} m", share(unit));
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
 

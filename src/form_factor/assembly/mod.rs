@@ -49,7 +49,7 @@ pub struct Assembled {
 const BATCH: usize = 64;
 
 /// Rows whose sums are nearer to one than this have no light on backs worth looking for.
-const CLOSED: f64 = 1e-3;
+const CLOSED: f64 = 4e-4;
 
 /// Fewest cells along a hemicube's edge.
 const LEAST_RESOLUTION: u32 = 32;
