@@ -3,7 +3,9 @@
 //! Where they lie is no different from where two faces lie back to back; what they see is: within a
 //! solid there are mostly backs.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3A};
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
 use rayon::prelude::*;
 
 use super::Row;
@@ -11,6 +13,7 @@ use crate::form_factor::hemicube::frame;
 use crate::form_factor::rays::Sphere;
 use crate::mesh::Patch;
 use crate::scene::area_vector;
+use crate::visibility::hierarchy::hierarchy;
 use crate::visibility::{HalfSpace, Occluders, PatchHierarchy, Polygon};
 
 /// Rays that tell whether a place is within a solid.
@@ -37,9 +40,12 @@ struct Contact {
 impl Contacts {
     pub(super) fn find(patches: &[Patch], occluders: &Occluders) -> Self {
         let tolerance = occluders.tolerance();
+        let boxes = boxes(patches, tolerance);
+        let tree = hierarchy(&boxes);
         let touching = |i: usize| -> Vec<Contact> {
-            let others = patches.iter().zip(0..);
-            others.filter_map(|(other, j)| Contact::of(&patches[i], other, j, tolerance)).collect()
+            let near = near(&tree, boxes[i]);
+            let contact = |j: u32| Contact::of(&patches[i], &patches[j as usize], j, tolerance);
+            near.into_iter().filter_map(contact).collect()
         };
         let mut all: Vec<Vec<Contact>> = (0..patches.len()).into_par_iter().map(touching).collect();
         let backed = |(patch, contacts): (&Patch, &Vec<Contact>)| {
@@ -113,6 +119,47 @@ impl Contact {
             (to - from).cross(point - from).dot(self.normal) <= 0.0
         })
     }
+}
+
+/// Boxes around patches, with all that may lie on them; in 32 bits, about the middle of all.
+fn boxes(patches: &[Patch], tolerance: f64) -> Vec<Aabb> {
+    /// Growth, as a share of all: more than rounding to 32 bits and than patches in one plane may
+    /// turn away from each other.
+    const GROWTH: f64 = 1e-4;
+    let corners = || patches.iter().flat_map(|patch| patch.corners.iter().copied());
+    let low = corners().fold(DVec3::INFINITY, DVec3::min);
+    let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let (centre, margin) = (low.midpoint(high), tolerance + GROWTH * low.distance(high));
+    let around = |patch: &Patch| {
+        let mut tight = Aabb::INVALID;
+        patch.corners.iter().for_each(|&corner| {
+            tight.extend((corner - centre).as_vec3a());
+        });
+        let margin = Vec3A::splat(margin as f32);
+        Aabb::new(tight.min - margin, tight.max + margin)
+    };
+    patches.iter().map(around).collect()
+}
+
+/// The boxes that overlap one, ascending.
+fn near(tree: &Bvh2, bounds: Aabb) -> Vec<u32> {
+    let (mut near, mut stack) = (Vec::new(), vec![0]);
+    while let Some(index) = stack.pop() {
+        let node = &tree.nodes[index as usize];
+        let overlaps =
+            node.aabb().min.cmple(bounds.max).all() && node.aabb().max.cmpge(bounds.min).all();
+        if !overlaps {
+            continue;
+        }
+        if !node.is_leaf() {
+            stack.extend([node.first_index, node.first_index + 1]);
+            continue;
+        }
+        let first = node.first_index as usize;
+        near.extend(&tree.primitive_indices[first..first + node.prim_count as usize]);
+    }
+    near.sort_unstable();
+    near
 }
 
 impl Patch {

@@ -34,7 +34,9 @@ impl<'a> Exchanges<'a> {
     pub(super) fn row(&self, i: usize) -> Row {
         let others = i + 1..self.patches.len();
         let exchange = |j: usize| (j as u32, self.with(i, j, facet(&self.patches[j])));
-        others.map(exchange).filter(|&(_, exchange)| exchange > 0.0).collect()
+        let mut row: Row = others.map(exchange).filter(|&(_, exchange)| exchange > 0.0).collect();
+        row.shrink_to_fit();
+        row
     }
 
     /// Share of the light of patch `i` that meets the black backs of others.

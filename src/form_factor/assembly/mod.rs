@@ -98,10 +98,9 @@ pub fn assemble(
     }
     for (i, row) in rows.iter_mut().enumerate() {
         *row = merged(std::mem::take(row), contacts.row(i).into_iter());
+        row.shrink_to_fit();
     }
-    mirror(&mut rows, &areas);
-    rows[done..].iter_mut().for_each(Vec::clear);
-    let factors = FormFactors::from_rows(areas, rows);
+    let factors = FormFactors::from_exchanges(areas, rows, done);
     let sums = factors.row_sums();
     let on_backs = |(i, sum): (usize, f64)| {
         if i < done && sum < 1.0 - CLOSED {
@@ -170,19 +169,4 @@ fn merged(first: Row, second: impl Iterator<Item = (u32, f64)>) -> Row {
         same
     });
     both
-}
-
-/// Completes exchanges above the diagonal to form factors on both of its sides.
-fn mirror(rows: &mut [Row], areas: &[f64]) {
-    let mut below = vec![Row::new(); rows.len()];
-    for (i, row) in rows.iter_mut().enumerate() {
-        for (j, value) in row {
-            below[*j as usize].push((i as u32, *value / areas[*j as usize]));
-            *value /= areas[i];
-        }
-    }
-    for (row, mut below) in rows.iter_mut().zip(below) {
-        below.append(row);
-        *row = below;
-    }
 }
