@@ -10,7 +10,7 @@ use crate::scene::area_vector;
 use crate::visibility::{Between, Facet, Occluders};
 
 /// Most cells that two polygons are divided in.
-const MOST_CELLS: usize = 128;
+const MOST_CELLS: usize = 512;
 
 /// Share of both sides' errors that their difference may reach.
 const DISTRUST: f64 = 0.5;
