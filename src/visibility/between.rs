@@ -84,6 +84,11 @@ impl Occluders {
 }
 
 impl Between {
+    /// Distances that count as zero, m.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
     /// True if nothing stands between the polygons.
     pub fn is_empty(&self) -> bool {
         self.parts.is_empty()

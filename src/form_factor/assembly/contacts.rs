@@ -19,6 +19,10 @@ use crate::visibility::{HalfSpace, Occluders, PatchHierarchy, Polygon};
 /// Rays that tell whether a place is within a solid.
 const PROBES: usize = 64;
 
+/// A patch of which other patches cover more than this share is covered: what is left is as narrow as
+/// the precision with which patches are cut along those on them.
+const COVERED: f64 = 0.999;
+
 /// What patches touch.
 #[derive(Debug)]
 pub(super) struct Contacts {
@@ -26,6 +30,8 @@ pub(super) struct Contacts {
     face_to_face: Vec<Vec<Contact>>,
     /// By patch: true if its back is behind the front of another, or has a patch of its own.
     backed: Vec<bool>,
+    /// By patch: true if those face to face with it leave nothing of it.
+    covered: Vec<bool>,
 }
 
 /// A patch that lies on another.
@@ -48,10 +54,10 @@ impl Contacts {
             near.into_iter().filter_map(contact).collect()
         };
         let mut all: Vec<Vec<Contact>> = (0..patches.len()).into_par_iter().map(touching).collect();
-        let backed = |(patch, contacts): (&Patch, &Vec<Contact>)| {
-            let covered: f64 = contacts.iter().map(Contact::area).sum();
-            patch.two_sided || covered > 0.5 * patch.area
+        let covered_share = |(patch, contacts): (&Patch, &Vec<Contact>)| {
+            contacts.iter().map(Contact::area).sum::<f64>() / patch.area
         };
+        let backed = |both: (&Patch, &Vec<Contact>)| both.0.two_sided || covered_share(both) > 0.5;
         let backed = patches.iter().zip(&all).map(backed).collect();
         if all.iter().any(|contacts| !contacts.is_empty()) {
             let (hierarchy, sphere) = (PatchHierarchy::new(patches), Sphere::new(PROBES));
@@ -72,13 +78,19 @@ impl Contacts {
                 });
             });
         }
-        Self { face_to_face: all, backed }
+        let covered = patches.iter().zip(&all).map(|both| covered_share(both) > COVERED).collect();
+        Self { face_to_face: all, backed, covered }
     }
 
     /// Exchanges, m², of patch `i` with those after it that it touches.
     pub(super) fn row(&self, i: usize) -> Row {
         let after = self.face_to_face[i].iter().filter(|contact| contact.other as usize > i);
         after.map(|contact| (contact.other, contact.area())).collect()
+    }
+
+    /// True if patch `i` sees nothing but what it touches.
+    pub(super) fn is_covered(&self, i: usize) -> bool {
+        self.covered[i]
     }
 
     /// True if light cannot end on the black back of patch `i`.

@@ -68,8 +68,8 @@ pub fn assemble(
     method: Method,
     mut observe: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Assembled {
-    let exchanges = contour::Exchanges::new(patches, occluders);
     let contacts = contacts::Contacts::find(patches, occluders);
+    let exchanges = contour::Exchanges::new(patches, occluders, &contacts);
     let mut rows: Vec<Row> = Vec::with_capacity(patches.len());
     let areas: Vec<f64> = patches.iter().map(|patch| patch.area).collect();
     match method {
@@ -103,11 +103,7 @@ pub fn assemble(
     let factors = FormFactors::from_exchanges(areas, rows, done);
     let sums = factors.row_sums();
     let on_backs = |(i, sum): (usize, f64)| {
-        if i < done && sum < 1.0 - CLOSED {
-            exchanges.on_backs(i, &contacts).min(1.0 - sum)
-        } else {
-            0.0
-        }
+        if i < done && sum < 1.0 - CLOSED { exchanges.on_backs(i).min(1.0 - sum) } else { 0.0 }
     };
     let on_backs = sums.into_par_iter().enumerate().map(on_backs).collect();
     Assembled { factors, on_backs, rows: done }

@@ -35,7 +35,7 @@ impl Cell {
     /// All of a quadrilateral.
     pub(super) fn whole(view: &View<'_>, quadrilateral: [DVec3; 4]) -> Self {
         const STEPS: [f64; 3] = [0.0, 0.5, 1.0];
-        let looks = STEPS.map(|s| STEPS.map(|t| view.look(&quadrilateral, inside([s, t]))));
+        let looks = STEPS.map(|s| STEPS.map(|t| view.look(&quadrilateral, [s, t])));
         Self::new(quadrilateral, [[0.0, 1.0]; 2], looks)
     }
 
@@ -81,7 +81,7 @@ impl Cell {
         let line = |at: f64| {
             steps.map(|step| {
                 let place = if along == 0 { [at, step] } else { [step, at] };
-                view.look(&self.quadrilateral, inside(place))
+                view.look(&self.quadrilateral, place)
             })
         };
         let lines = if along == 0 { self.looks } else { transposed(self.looks) };
@@ -104,12 +104,6 @@ impl Cell {
         let corners = places.map(|[s, t]| at(&self.quadrilateral, s, t).0);
         exchange(Facet { corners: &corners, ..view.from }, view.to)
     }
-}
-
-/// Places on a border are looked from a little inside: there, what touches it has no side.
-fn inside(place: [f64; 2]) -> [f64; 2] {
-    const INSET: f64 = 0.002;
-    place.map(|x| x.clamp(INSET, 1.0 - INSET))
 }
 
 fn transposed(looks: [[Seen; 3]; 3]) -> [[Seen; 3]; 3] {

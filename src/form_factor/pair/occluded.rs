@@ -18,6 +18,10 @@ const DISTRUST: f64 = 0.5;
 /// Exchanges below this many times the error that is allowed are looked at from four points alone.
 const FAINT: f64 = 4.0;
 
+/// Distance of eyes from the border of what they are on, in tolerances: occluders within two of them
+/// count as in one plane with an eye.
+const MARGIN: f64 = 4.0;
+
 /// Exchange A₁F₁₂, m², between what two convex polygons see of each other, to within about
 /// `tolerance` times the smaller of their areas.
 ///
@@ -91,7 +95,8 @@ pub(super) struct View<'a> {
 
 impl View<'_> {
     /// Form factors from a place of a quadrilateral times its area per area of the unit square there, m².
-    pub(super) fn look(&self, quadrilateral: &[DVec3; 4], [s, t]: [f64; 2]) -> Seen {
+    pub(super) fn look(&self, quadrilateral: &[DVec3; 4], place: [f64; 2]) -> Seen {
+        let [s, t] = inside(quadrilateral, place, MARGIN * self.between.tolerance());
         let (eye, area) = at(quadrilateral, s, t);
         let factor =
             |polygon: &[DVec3]| point_to_polygon_above(eye, self.from.plane.normal, polygon);
@@ -109,6 +114,21 @@ impl View<'_> {
             .flat_map(|quadrilateral| points().map(move |place| self.look(&quadrilateral, place)));
         share(looks.fold([0.0; 2], add))
     }
+}
+
+/// A place on the border of a quadrilateral moved inside, by `margin`, m, or more, where there is
+/// room: what touches a place has no side there.
+fn inside([a, b, c, d]: &[DVec3; 4], place: [f64; 2], margin: f64) -> [f64; 2] {
+    const LEAST: f64 = 0.002;
+    const MOST: f64 = 0.4;
+    let [s, t] = place.map(|x| x.clamp(LEAST, 1.0 - LEAST));
+    let (along_s, along_t) = ((b - a).lerp(c - d, t), (d - a).lerp(c - b, s));
+    let area = along_s.cross(along_t).length().max(f64::MIN_POSITIVE);
+    let clear = |x: f64, across: DVec3| {
+        let inset = (margin * across.length() / area).clamp(LEAST, MOST);
+        x.clamp(inset, 1.0 - inset)
+    };
+    [clear(s, along_t), clear(t, along_s)]
 }
 
 pub(super) fn add([visible, all]: Seen, other: Seen) -> Seen {
