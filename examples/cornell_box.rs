@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use radiosity::export::{self, Stamp};
-use radiosity::render::{self, Display, RenderOptions};
+use radiosity::render::{self, Display, RenderOptions, View};
 use radiosity::scene::LoadOptions;
 use radiosity::tone::{Exposure, exposure_scale};
 use radiosity::{Settings, load, reconstruct, solve, surfaces_of};
@@ -17,9 +17,9 @@ fn main() -> radiosity::Result<()> {
     export::save(&mesh, Path::new("out/cornell-box.glb"), &Stamp::default())?;
 
     let camera = &scene.cameras[0];
-    let display = Display::Exposed { scale: exposure_scale(&mesh, Exposure::Automatic) };
-    for (name, wireframe) in [("cornell-box", false), ("cornell-box-mesh", true)] {
-        let options = RenderOptions { wireframe, ..RenderOptions::default() };
+    let display = Display::exposed(exposure_scale(&mesh, Exposure::Automatic));
+    for (name, view) in [("cornell-box", View::Light), ("cornell-box-mesh", View::Wireframe)] {
+        let options = RenderOptions { view, ..RenderOptions::default() };
         let picture = render::render(&mesh, camera, &options);
         render::save(&picture, &Path::new("out").join(name).with_extension("png"), &display)?;
     }

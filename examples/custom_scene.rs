@@ -31,7 +31,7 @@ fn main() -> radiosity::Result<()> {
     let options = RenderOptions::default();
     let camera = render::automatic_camera(&mesh, 4.0 / 3.0);
     let picture = render::render(&mesh, &camera, &options);
-    let display = Display::Exposed { scale: exposure_scale(&mesh, Exposure::Automatic) };
+    let display = Display::exposed(exposure_scale(&mesh, Exposure::Automatic));
     render::save(&picture, Path::new("out/custom-scene.png"), &display)
 }
 

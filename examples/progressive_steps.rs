@@ -27,9 +27,8 @@ fn main() -> radiosity::Result<()> {
         let solution = after(lamp_patches + shots - 1)?;
         let mesh = reconstruct(&surfaces, &solution);
         // The exposure of the last step, so that all can be compared.
-        let display = display.get_or_insert_with(|| Display::Exposed {
-            scale: exposure_scale(&mesh, Exposure::Automatic),
-        });
+        let display = display
+            .get_or_insert_with(|| Display::exposed(exposure_scale(&mesh, Exposure::Automatic)));
         let picture = render::render(&mesh, camera, &RenderOptions::default());
         render::save(&picture, Path::new(&format!("out/shots-{shots:03}.png")), display)?;
         println!(

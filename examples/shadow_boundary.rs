@@ -6,7 +6,7 @@ mod common;
 use std::path::Path;
 
 use glam::DVec3;
-use radiosity::render::{self, Display, RenderOptions};
+use radiosity::render::{self, Display, RenderOptions, View};
 use radiosity::scene::{Camera, LoadOptions};
 use radiosity::tone::{Exposure, exposure_scale};
 use radiosity::{Length, Settings, load, surfaces_of};
@@ -28,7 +28,7 @@ fn main() -> radiosity::Result<()> {
         ..Settings::high()
     };
     let (_, truth) = common::lit(&surfaces, &fine)?;
-    let display = Display::Exposed { scale: exposure_scale(&truth, Exposure::Automatic) };
+    let display = Display::exposed(exposure_scale(&truth, Exposure::Automatic));
 
     let uniform = Settings { uniform: Some(0.1), ..Settings::medium() };
     let adaptive = Settings { tolerance: 0.0065, ..Settings::medium() };
@@ -37,7 +37,7 @@ fn main() -> radiosity::Result<()> {
         let elements = solution.mesh.leaves().count();
         let error = 100.0 * common::error(&mesh, &truth, &camera);
         println!("{name:<9} {elements:>5} elements, {error:.2} % error");
-        let options = RenderOptions { wireframe: true, ..RenderOptions::default() };
+        let options = RenderOptions { view: View::Wireframe, ..RenderOptions::default() };
         let picture = render::render(&mesh, &camera, &options);
         render::save(&picture, Path::new(&format!("out/shadow-{name}.png")), &display)?;
     }

@@ -7,7 +7,7 @@ mod common;
 use std::path::Path;
 use std::time::Instant;
 
-use radiosity::render::{self, Display, RenderOptions};
+use radiosity::render::{self, Display, RenderOptions, View};
 use radiosity::scene::LoadOptions;
 use radiosity::tone::{Exposure, exposure_scale};
 use radiosity::{Length, Settings, load, surfaces_of};
@@ -17,7 +17,7 @@ fn main() -> radiosity::Result<()> {
     let surfaces = surfaces_of(&load("scenes/cornell-box.obj")?);
     let camera = &load("scenes/cornell-box.glb")?.cameras[0];
     let (_, truth) = common::lit(&surfaces, &Settings::high())?;
-    let display = Display::Exposed { scale: exposure_scale(&truth, Exposure::Automatic) };
+    let display = Display::exposed(exposure_scale(&truth, Exposure::Automatic));
 
     let patches = |metres, settings| Settings { patch_size: Length::Metres(metres), ..settings };
     let undivided = Settings { max_level: 0, ..Settings::medium() };
@@ -36,7 +36,7 @@ fn main() -> radiosity::Result<()> {
             solution.mesh.leaves().count(),
             100.0 * common::error(&mesh, &truth, camera),
         );
-        let options = RenderOptions { wireframe: true, ..RenderOptions::default() };
+        let options = RenderOptions { view: View::Wireframe, ..RenderOptions::default() };
         let picture = render::render(&mesh, camera, &options);
         render::save(&picture, Path::new(&format!("out/patches-{name}.png")), &display)?;
     }

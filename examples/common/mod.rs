@@ -12,7 +12,7 @@ const LAMP: f64 = 10.0;
 /// Root mean square of the difference of two pictures, as a share of the mean of the second.
 pub(crate) fn error(mesh: &TriMesh, truth: &TriMesh, camera: &Camera) -> f64 {
     let options = RenderOptions { width: 480, height: 360, samples: 2, ..Default::default() };
-    let [seen, right] = [mesh, truth].map(|mesh| render(mesh, camera, &options).radiance);
+    let [seen, right] = [mesh, truth].map(|mesh| render(mesh, camera, &options).values);
     let values = || right.iter().map(|pixel| f64::from(pixel.element_sum()));
     let lamp = LAMP * values().sum::<f64>() / values().filter(|&value| value > 0.0).count() as f64;
 

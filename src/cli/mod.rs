@@ -34,7 +34,7 @@ struct Cli {
 const EXAMPLES: &str = "\
 Examples:
   radiosity solve scenes/cornell-box.obj -o cornell.glb --image cornell.png
-  radiosity render cornell.glb -o mesh.png --wireframe
+  radiosity render cornell.glb -o mesh.png --view wireframe
   radiosity form-factors scenes/furnace.obj --patch-size 1 -o F.json
   radiosity info scenes/office.obj
 

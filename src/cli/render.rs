@@ -1,14 +1,16 @@
 //! `radiosity render`: a picture of a solved GLB, from anywhere.
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::Args;
-use radiosity::{export, render};
+use radiosity::export;
+use radiosity::render::{self, Subject};
 use serde_json::json;
 
 use super::failure::Failure;
 use super::meter::Meter;
-use super::options::{PictureOptions, ReportOptions};
+use super::options::{PictureOptions, ReportOptions, display};
 use super::record::{CameraRecord, cameras};
 use super::{console, outputs};
 
@@ -35,13 +37,15 @@ pub(crate) struct Render {
 
 const EXAMPLES: &str = "\
 Examples:
-  radiosity render cornell.glb -o mesh.png --wireframe
+  radiosity render cornell.glb -o mesh.png --view wireframe
   radiosity render cornell.glb -o corner.png --eye 0.1,0.5,-0.2 --target 0.3,0.2,0.3 --fov 60
-  radiosity render office.glb -o lux.png --false-colour lux --size 1600x900";
+  radiosity render office.glb -o a.png -o b.png --view light,radiosity --size 1600x900";
 
 impl Render {
     pub(crate) fn run(self) -> Result<(), Failure> {
         outputs::check(&self.path, &[], &self.output, None)?;
+        let views = self.picture.views(&self.output)?;
+        self.picture.check_for_file()?;
         self.report.use_threads()?;
         let mut meter = Meter::new(&self.report);
         meter.begin("reading");
@@ -55,10 +59,16 @@ impl Render {
         if self.report.verbose > 0 {
             meter.tell(&format!("camera {}", CameraRecord::from(&camera)));
         }
-        let display = self.picture.display(&mesh, self.picture.exposure.unwrap_or(stamp.exposure));
-        let picture = self.picture.picture(&mesh, &camera);
-        for path in &self.output {
-            render::save(&picture, path, &display)?;
+        let display = display(&mesh, self.picture.exposure.unwrap_or(stamp.exposure));
+        let subject = Subject { mesh: &mesh, solved: None };
+        for (view, paths) in views {
+            let picture = self.picture.picture(view, subject, &camera, |done| {
+                meter.advance("picture", done);
+                ControlFlow::Continue(())
+            });
+            for path in paths {
+                render::save(&picture, path, &display)?;
+            }
         }
         let seconds = meter.into_timings();
         if self.report.json {

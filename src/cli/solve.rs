@@ -4,14 +4,17 @@ use std::path::PathBuf;
 
 use clap::Args;
 use radiosity::export::{self, Stamp};
-use radiosity::reconstruct::TriMesh;
+use radiosity::render::{self, Solved, Subject};
 use radiosity::solver::Stop;
-use radiosity::{load, reconstruct, render, solve, surfaces_of};
+use radiosity::tone::Exposure;
+use radiosity::{load, reconstruct, solve, surfaces_of};
 
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
-use super::options::{AccuracyOptions, CameraChoice, PictureOptions, ReportOptions, SceneOptions};
+use super::options::{
+    AccuracyOptions, CameraChoice, PictureOptions, ReportOptions, SceneOptions, display,
+};
 use super::record::{CameraRecord, SettingsRecord, stamped};
 use super::summary::{Outcome, Summary};
 use super::{console, outputs};
@@ -40,8 +43,8 @@ pub(crate) struct Solve {
 
     /// How the exchange of reflected light converged: residual and unshot share, patch by patch
     ///
-    /// Columns: round (light is exchanged twice, the second time on the finer mesh), shots so far, the
-    /// patch that was next, the largest residual in W/m², and the unshot share of the emitted power.
+    /// Columns: shots so far, the patch that was next, the largest residual in W/m², and the unshot
+    /// share of the emitted power.
     #[arg(long, value_name = "FILE.csv", help_heading = "Writing")]
     history: Option<PathBuf>,
 
@@ -54,7 +57,7 @@ pub(crate) struct Solve {
     #[command(flatten)]
     report: ReportOptions,
 
-    /// Take options from a TOML file: `tolerance = 0.02`, `image = "room.png"`, `wireframe = true`
+    /// Take options from a TOML file: `tolerance = 0.02`, `image = "room.png"`, `final-gather = true`
     ///
     /// Keys are the long options without dashes in front. What the command line gives wins.
     #[arg(long, value_name = "FILE.toml", help_heading = "Reporting")]
@@ -65,7 +68,8 @@ const EXAMPLES: &str = "\
 Examples:
   radiosity solve scenes/cornell-box.obj -o cornell.glb --image cornell.png
   radiosity solve kitchen.obj --units cm --quality draft --image first-look.png
-  radiosity solve room.glb -o room-lit.ply --image mesh.png --wireframe --tolerance 1.5%
+  radiosity solve room.glb -o room-lit.ply --image mesh.png --view wireframe --tolerance 1.5%
+  radiosity solve kitchen.obj --image final.png --image mesh.png --view light,reason --final-gather
   radiosity solve scenes/blocker.obj --uniform 0.1 --image uniform.png --eye 1,2,3 --target 0,0,0";
 
 impl Solve {
@@ -73,6 +77,7 @@ impl Solve {
         let settings = self.accuracy.settings();
         settings.validate()?;
         outputs::check(&self.scene.path, &self.output, &self.image, self.history.as_deref())?;
+        self.picture.views(&self.image)?;
         self.report.use_threads()?;
         let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.report);
@@ -105,7 +110,10 @@ impl Solve {
             settings: stamped(&settings_record, &scene.cameras),
             finished: solution.stop == Stop::Converged,
         };
-        self.write(&mesh, &camera, &stamp, &mut meter)?;
+        let solved = Solved { surfaces: &surfaces, settings: &settings, solution: &solution };
+        let subject = Subject { mesh: &mesh, solved: Some(solved) };
+        self.write_meshes(&subject, &stamp, &mut meter)?;
+        self.write_pictures(subject, (&camera, exposure), &interrupt, &mut meter)?;
         if let Some(path) = &self.history {
             export::save_history(&solution.history, path)?;
         }
@@ -133,10 +141,9 @@ impl Solve {
         Ok(())
     }
 
-    fn write(
+    fn write_meshes(
         &self,
-        mesh: &TriMesh,
-        camera: &CameraChoice,
+        subject: &Subject<'_>,
         stamp: &Stamp,
         meter: &mut Meter,
     ) -> Result<(), Failure> {
@@ -144,20 +151,35 @@ impl Solve {
             meter.begin("writing");
         }
         for path in &self.output {
-            export::save(mesh, path, stamp)?;
+            export::save(subject.mesh, path, stamp)?;
         }
+        Ok(())
+    }
+
+    fn write_pictures(
+        &self,
+        subject: Subject<'_>,
+        (camera, exposure): (&CameraChoice, Exposure),
+        interrupt: &Interrupt,
+        meter: &mut Meter,
+    ) -> Result<(), Failure> {
         if self.image.is_empty() {
             return Ok(());
         }
         meter.begin("picture");
-        let camera = self.picture.camera(camera, mesh);
+        let camera = self.picture.camera(camera, subject.mesh);
         if self.report.verbose > 0 {
             meter.tell(&format!("camera {}", CameraRecord::from(&camera)));
         }
-        let display = self.picture.display(mesh, stamp.exposure);
-        let picture = self.picture.picture(mesh, &camera);
-        for path in &self.image {
-            render::save(&picture, path, &display)?;
+        let display = display(subject.mesh, exposure);
+        for (view, paths) in self.picture.views(&self.image)? {
+            let picture = self.picture.picture(view, subject, &camera, |done| {
+                meter.advance("picture", done);
+                interrupt.flow()
+            });
+            for path in paths {
+                render::save(&picture, path, &display)?;
+            }
         }
         Ok(())
     }

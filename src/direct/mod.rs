@@ -2,6 +2,7 @@
 //!
 //! It carries the hard edges, so it is never carried by the hemicube.
 
+mod lines;
 mod punctual;
 
 use glam::DVec3;

@@ -8,20 +8,19 @@ use crate::file;
 use crate::solver::relaxation::Step;
 
 /// What the columns are called.
-const COLUMNS: &str = "round,shots,patch,residual,unshot";
+const COLUMNS: &str = "shots,patch,residual,unshot";
 
-/// Writes a history as `.csv`: one line before the first patch of each round, and one for each patch
-/// that was relaxed.
+/// Writes a history as `.csv`: one line before the first patch, and one for each patch that was
+/// relaxed.
 ///
-/// `round` counts the exchanges of reflected light from 1, `shots` the patches relaxed in that round,
-/// `patch` is the last of them, `residual` the largest of all patches and channels, W/m², and
-/// `unshot` the share of the emitted power.
+/// `shots` counts the patches relaxed so far, `patch` is the last of them, `residual` the largest of
+/// all patches and channels, W/m², and `unshot` the share of the emitted power.
 ///
 /// # Errors
 /// When the file cannot be written.
-pub fn save_history(rounds: &[Vec<Step>], path: &Path) -> Result<()> {
+pub fn save_history(steps: &[Step], path: &Path) -> Result<()> {
     check_ending(path)?;
-    file::replace(path, |out| write(rounds, out))
+    file::replace(path, |out| write(steps, out))
 }
 
 /// Finds out before long work whether [`save_history`] could write to `path`; makes missing
@@ -41,13 +40,11 @@ fn check_ending(path: &Path) -> Result<()> {
     Err(Error::UnknownFormat { path: path.to_owned(), known: ".csv" })
 }
 
-fn write(rounds: &[Vec<Step>], out: &mut impl Write) -> io::Result<()> {
+fn write(steps: &[Step], out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "{COLUMNS}")?;
-    for (round, steps) in rounds.iter().enumerate() {
-        for Step { shots, row, residual, unshot, .. } in steps {
-            let patch = row.map(|row| row.to_string()).unwrap_or_default();
-            writeln!(out, "{},{shots},{patch},{residual:e},{unshot:e}", round + 1)?;
-        }
+    for Step { shots, row, residual, unshot, .. } in steps {
+        let patch = row.map(|row| row.to_string()).unwrap_or_default();
+        writeln!(out, "{shots},{patch},{residual:e},{unshot:e}")?;
     }
     Ok(())
 }

@@ -14,12 +14,17 @@ use crate::surface::{Plane, Surfaces, Weld, mean_texture};
 /// How far inside a border light is evaluated, in tolerances: well beyond what counts as touching it.
 const INSET: f64 = 50.0;
 
+/// Ends of cuts less than this many tolerances from a vertex are moved there.
+const CLOSE: f64 = 200.0;
+
 /// Finds the vertex at a place.
 #[derive(Clone, Debug)]
 pub(super) struct VertexIndex {
     sheets: Vec<Sheet>,
     /// By surface, place on it, and, where a contact line runs through it, patch.
     vertices: HashMap<(u32, u32, Option<PatchId>), VertexId>,
+    /// Places of vertices in space, one of those that are close to each other.
+    landmarks: Weld,
     tolerance: f64,
 }
 
@@ -93,6 +98,8 @@ impl Mesh {
         if vertex == new {
             let site = self.site(patch, position);
             let (direct, indirect) = (None, None);
+            let plane = &self.index.sheets[surface as usize].plane;
+            self.index.landmarks.number(plane.lift(position));
             self.vertices.push(Vertex { surface, position, site, on_contact, direct, indirect });
         }
         vertex
@@ -106,6 +113,38 @@ impl Mesh {
         self.index.vertices.get(&(surface, place, side)).copied()
     }
 
+    /// The vertex of a patch at a place on an edge; where one is close by, of any surface, that place.
+    pub(super) fn vertex_on(&mut self, patch: PatchId, edge: Segment, position: DVec2) -> VertexId {
+        let Sheet { plane, .. } = &self.index.sheets[self[patch].surface as usize];
+        let landmarks = &self.index.landmarks;
+        let close =
+            landmarks.find(plane.lift(position)).map(|number| landmarks.places()[number as usize]);
+        let flat = |place: glam::DVec3| {
+            let flat = plane.flatten(place);
+            let aside = polygon::distance(edge, flat).max(plane.lift(flat).distance(place));
+            (aside <= 0.1 * self.index.tolerance).then_some(flat)
+        };
+        let position = close.and_then(flat).unwrap_or(position);
+        self.vertex(patch, position)
+    }
+
+    /// Another vertex at the same place, for the light there on the side of a place inside.
+    pub(super) fn copy_towards(
+        &mut self,
+        patch: PatchId,
+        vertex: VertexId,
+        inside: DVec2,
+    ) -> VertexId {
+        let plane = &self.index.sheets[self[patch].surface as usize].plane;
+        let mut copy = self[vertex].clone();
+        let inward = (inside - copy.position).normalize_or_zero();
+        let reach = (2.0 * INSET * self.index.tolerance).min(0.2 * inside.distance(copy.position));
+        copy.site = plane.lift(copy.position + inward * reach);
+        (copy.direct, copy.indirect) = (None, None);
+        self.vertices.push(copy);
+        VertexId(self.vertices.len() as u32 - 1)
+    }
+
     fn on_contact(&self, patch: PatchId, position: DVec2) -> bool {
         let Patch { surface, contacts, .. } = &self[patch];
         let segments = &self.index.sheets[*surface as usize].contacts;
@@ -115,7 +154,7 @@ impl Mesh {
 
     /// Where to evaluate light for a place on a patch: moved inwards until it is a hair away from
     /// every border, so that what stands along a border is seen from the patch's side.
-    fn site(&self, patch: PatchId, position: DVec2) -> DVec3 {
+    pub fn site(&self, patch: PatchId, position: DVec2) -> DVec3 {
         let Patch { surface, corners, normal, area, .. } = &self[patch];
         let edges = || corners.iter().zip(corners.iter().cycle().skip(1));
         let perimeter: f64 = edges().map(|(a, b)| a.distance(*b)).sum();
@@ -152,7 +191,8 @@ impl VertexIndex {
             places: Weld::new(tolerance),
         };
         let sheets = surfaces.list.iter().map(sheet).collect();
-        Self { sheets, vertices: HashMap::new(), tolerance }
+        let landmarks = Weld::new(CLOSE * tolerance);
+        Self { sheets, vertices: HashMap::new(), landmarks, tolerance }
     }
 }
 

@@ -13,7 +13,7 @@ use crate::surface::Plane;
 use crate::surface::polygon::{self, Convex};
 
 pub use ids::{ElementId, PatchId, VertexId};
-pub use split::{Middle, Split};
+pub use split::{Crossing, Middle, Split};
 
 use build::VertexIndex;
 

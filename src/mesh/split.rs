@@ -13,13 +13,24 @@ use crate::surface::polygon::{self, Convex};
 const LONG: f64 = 1.8;
 
 /// How to divide an element.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Split {
     /// A triangle or quadrilateral in four, any other polygon in one quadrilateral per corner.
     Quarters,
     /// A quadrilateral in two, along the line between the midpoints of its edges `k` and `k + 2`,
     /// `k` being 0 or 1.
     Halves(usize),
+    /// Any polygon in two, from one place on its border to another.
+    Along([Crossing; 2]),
+}
+
+/// A place on the border of an element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// The edge, counted from that from the first to the second corner.
+    pub edge: usize,
+    /// How far along it, 0..1; 0 is the corner itself.
+    pub share: f64,
 }
 
 /// The vertices at which an element is judged and divided.
@@ -89,11 +100,57 @@ impl Mesh {
         }
     }
 
+    /// The parts to the right and to the left of a cut. A corner at which light depends on the direction,
+    /// being on a contact line, becomes two: one for each part.
+    fn parts_along(
+        &mut self,
+        element: ElementId,
+        crossings: [Crossing; 2],
+    ) -> SmallVec<[Corners; 4]> {
+        let Element { patch, corners, .. } = self[element].clone();
+        let n = corners.len();
+        let outline = self.outline(element);
+        let ends = crossings.map(|Crossing { edge, share }| {
+            if share == 0.0 {
+                return corners[edge];
+            }
+            let ends = [outline[edge], outline[(edge + 1) % n]];
+            self.vertex_on(patch, ends, ends[0].lerp(ends[1], share))
+        });
+        let part = |from: usize, to: usize| {
+            let (start, end) = (crossings[from], crossings[to]);
+            let mut part = Corners::from_slice(&[ends[from]]);
+            let mut k = (start.edge + 1) % n;
+            let last = if end.share == 0.0 { end.edge } else { (end.edge + 1) % n };
+            while k != last {
+                part.push(corners[k]);
+                k = (k + 1) % n;
+            }
+            part.push(ends[to]);
+            part
+        };
+        let mut parts = [part(0, 1), part(1, 0)];
+        for part in &mut parts {
+            let outline: Convex = part.iter().map(|&v| self[v].position).collect();
+            let inside = polygon::centroid(&outline);
+            for corner in [0, part.len() - 1] {
+                if self[part[corner]].on_contact && corners.contains(&part[corner]) {
+                    part[corner] = self.copy_towards(patch, part[corner], inside);
+                }
+            }
+        }
+        parts.into_iter().collect()
+    }
+
     fn parts(&mut self, element: ElementId, split: Split) -> SmallVec<[Corners; 4]> {
+        if let Split::Along(crossings) = split {
+            return self.parts_along(element, crossings);
+        }
         let Middle { edges: m, centre } = self.middle(element);
         let c = self[element].corners.clone();
         let n = c.len();
         match split {
+            Split::Along(_) => unreachable!(),
             Split::Halves(k) => {
                 assert_eq!(n, 4, "only quadrilaterals are halved");
                 let [a, b, d, e] = [k, k + 1, (k + 2) % 4, (k + 3) % 4];

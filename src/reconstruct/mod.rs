@@ -4,6 +4,7 @@
 //! neighbours agree on their border, within a surface and where surfaces meet. Light is shared by
 //! leaves that share a vertex of the mesh, which those on two sides of a contact line do not.
 
+mod fit;
 mod normal;
 mod sheet;
 mod smooth;
@@ -17,7 +18,7 @@ use crate::mesh::{ElementId, Mesh, VertexId};
 use crate::solver::Solution;
 use crate::surface::{Surfaces, Weld};
 
-pub use trimesh::{Part, TriMesh};
+pub use trimesh::{Irradiance, Part, TriMesh};
 
 use sheet::Sheet;
 use stitch::Places;
@@ -72,9 +73,11 @@ fn assemble(surfaces: &Surfaces, places: &Places, sheets: &[Sheet]) -> TriMesh {
                     mesh.uvs.push(corner.uv.as_vec2());
                     mesh.radiosity.push(corner.radiosity);
                     mesh.texture_mean.push(corner.texture_mean);
+                    mesh.irradiance.push(corner.irradiance);
                 }
                 mesh.triangles
                     .extend(sheet.triangles.iter().map(|t| t.map(|corner| base + corner)));
+                mesh.leaves.extend_from_slice(&sheet.leaves);
             }
         }
         if mesh.triangles.len() > first {

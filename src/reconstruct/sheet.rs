@@ -4,11 +4,13 @@ use std::collections::HashMap;
 
 use glam::{DVec2, DVec3};
 
+use super::fit::{Fit, Known};
 use super::normal::normal_at;
 use super::stitch::Places;
-use super::triangulate::triangulate;
+use super::triangulate::{Tile, triangulate};
+use super::trimesh::Irradiance;
 use crate::colour::Rgb;
-use crate::mesh::{Element, ElementId, Mesh, VertexId};
+use crate::mesh::{Element, ElementId, Mesh, Vertex, VertexId};
 use crate::surface::{Surface, Surfaces, mean_texture};
 
 /// A triangulated surface.
@@ -17,6 +19,8 @@ pub(super) struct Sheet {
     pub(super) corners: Vec<Corner>,
     /// Indices into `corners`.
     pub(super) triangles: Vec<[u32; 3]>,
+    /// The leaf that each triangle is part of.
+    pub(super) leaves: Vec<ElementId>,
     /// True if the surface stands for a part of a curved one.
     pub(super) curved: bool,
     /// Index into [`Surfaces::materials`].
@@ -31,6 +35,7 @@ pub(super) struct Corner {
     pub(super) place: u32,
     pub(super) normal: DVec3,
     pub(super) uv: DVec2,
+    pub(super) irradiance: Irradiance,
     pub(super) radiosity: Rgb,
     pub(super) texture_mean: Rgb,
 }
@@ -56,7 +61,7 @@ struct Builder<'a> {
     surface: &'a Surface,
     places: &'a Places,
     numbers: HashMap<Source, u32>,
-    corners: Vec<(Corner, Rgb)>,
+    corners: Vec<Corner>,
     looks: Vec<Look>,
 }
 
@@ -86,10 +91,17 @@ impl Sheet {
             loops.push(places);
         }
         let tiles = triangulate(&loops, |place| surface.plane.flatten(places.at(place)));
-        let triangle =
-            |tile: &super::triangulate::Tile| tile.corners.map(|p| numbered[tile.leaf][&p]);
+        // Where rounding has brought a stranger into a leaf, any corner at its place will do.
+        let anywhere = |place| numbered.iter().find_map(|numbers| numbers.get(&place)).copied();
+        let corner = |tile: &Tile, place| {
+            numbered[tile.leaf].get(&place).copied().or_else(|| anywhere(place)).unwrap_or_default()
+        };
+        let triangle = |tile: &Tile| tile.corners.map(|place| corner(tile, place));
+        let triangles: Vec<[u32; 3]> = tiles.iter().map(triangle).collect();
+        builder.fit(leaves, (&tiles, &triangles));
         Self {
-            triangles: tiles.iter().map(triangle).collect(),
+            triangles,
+            leaves: tiles.iter().map(|tile| leaves[tile.leaf]).collect(),
             corners: builder.finish(),
             curved: !surface.normals.is_empty(),
             material: surface.material,
@@ -104,7 +116,7 @@ impl Builder<'_> {
         let (mut places, mut corners) = (Vec::new(), Vec::new());
         for (k, (&place, &vertex)) in outline.iter().zip(&leaf.corners).enumerate() {
             let next = (k + 1) % outline.len();
-            let light = self.mesh[vertex].irradiance();
+            let light = arriving(&self.mesh[vertex]);
             places.push(place);
             corners.push(self.corner(Source::Vertex(vertex), place, light, look));
             let ends = (vertex, leaf.corners[next]);
@@ -124,29 +136,31 @@ impl Builder<'_> {
         (a, b): (VertexId, VertexId),
         (from, to): (u32, u32),
         place: u32,
-    ) -> (Source, Rgb) {
+    ) -> (Source, Irradiance) {
         let at = |place| self.places.at(place);
         let known = self.mesh.find_vertex(leaf.patch, self.surface.plane.flatten(at(place)));
         let lit = |v: &VertexId| self.mesh[*v].direct.is_some() && self.mesh[*v].indirect.is_some();
         if let Some(vertex) = known.filter(lit) {
-            return (Source::Vertex(vertex), self.mesh[vertex].irradiance());
+            return (Source::Vertex(vertex), arriving(&self.mesh[vertex]));
         }
         let share = at(from).distance(at(place)) / at(from).distance(at(to));
-        let light = self.mesh[a].irradiance().lerp(self.mesh[b].irradiance(), share);
+        let [a_light, b_light] = [a, b].map(|v| arriving(&self.mesh[v]));
+        let light = a_light.lerp(b_light, share);
         (Source::Between(place, a.min(b), a.max(b)), light)
     }
 
-    fn corner(&mut self, source: Source, place: u32, irradiance: Rgb, look: Look) -> u32 {
+    fn corner(&mut self, source: Source, place: u32, irradiance: Irradiance, look: Look) -> u32 {
         let number = *self.numbers.entry(source).or_insert_with(|| {
             let position = self.surface.plane.flatten(self.places.at(place));
             let corner = Corner {
                 place,
                 normal: normal_at(self.surface, position),
                 uv: self.surface.uv.map_or(DVec2::ZERO, |uv| uv.transform_point2(position)),
+                irradiance,
                 radiosity: Rgb::ZERO,
                 texture_mean: Rgb::ONE,
             };
-            self.corners.push((corner, irradiance));
+            self.corners.push(corner);
             self.looks.push(Look::default());
             self.corners.len() as u32 - 1
         });
@@ -154,17 +168,58 @@ impl Builder<'_> {
         number
     }
 
+    /// Moves light at the corners so that triangles hold what leaves do.
+    fn fit(&mut self, leaves: &[ElementId], tiles: (&[Tile], &[[u32; 3]])) {
+        let direct = self.fits(leaves, tiles, |v| v.direct.map(|direct| direct.irradiance));
+        let indirect = self.fits(leaves, tiles, |v| v.indirect);
+        for (corner, (direct, indirect)) in
+            self.corners.iter_mut().zip(direct.iter().zip(&indirect))
+        {
+            let irradiance = &mut corner.irradiance;
+            irradiance.direct = direct.moved(irradiance.direct);
+            irradiance.direct_on_facet = direct.moved(irradiance.direct_on_facet);
+            irradiance.indirect = indirect.moved(irradiance.indirect);
+        }
+    }
+
+    /// By how much one kind of light is to be moved, corner by corner.
+    fn fits(
+        &self,
+        leaves: &[ElementId],
+        (tiles, triangles): (&[Tile], &[[u32; 3]]),
+        light: impl Fn(&Vertex) -> Option<Rgb>,
+    ) -> Vec<Fit> {
+        let known: Vec<Option<Known>> =
+            leaves.iter().map(|&leaf| Known::new(self.mesh, leaf, &light)).collect();
+        let mut fits = vec![Fit::default(); self.corners.len()];
+        for (tile, triangle) in tiles.iter().zip(triangles) {
+            let Some(known) = known[tile.leaf] else { continue };
+            let at = |place: u32| self.surface.plane.flatten(self.places.at(place));
+            for (&corner, share) in triangle.iter().zip(known.shares(tile.corners.map(at))) {
+                fits[corner as usize].add(share, known.range);
+            }
+        }
+        fits
+    }
+
     /// The corners with their radiosities: B = E + ρ H, texture means included.
     fn finish(self) -> Vec<Corner> {
         let Surface { reflectance, exitance, .. } = *self.surface;
-        let with_light = |((corner, irradiance), look): ((Corner, Rgb), Look)| {
+        let with_light = |(corner, look): (Corner, Look)| {
             let texture_mean = look.reflectance_texture / look.area;
             let emitted = exitance * look.exitance_texture / look.area;
-            let radiosity = emitted + reflectance * texture_mean * irradiance;
+            let Irradiance { direct, indirect, .. } = corner.irradiance;
+            let radiosity = emitted + reflectance * texture_mean * (direct + indirect);
             Corner { radiosity, texture_mean, ..corner }
         };
         self.corners.into_iter().zip(self.looks).map(with_light).collect()
     }
+}
+
+/// What is known to arrive at a vertex; nothing where no light was evaluated.
+fn arriving(vertex: &Vertex) -> Irradiance {
+    let direct = vertex.direct.unwrap_or_default().irradiance;
+    Irradiance { direct, indirect: vertex.indirect.unwrap_or(Rgb::ZERO), direct_on_facet: direct }
 }
 
 impl Look {

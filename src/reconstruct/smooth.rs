@@ -2,15 +2,15 @@
 
 use std::collections::HashMap;
 
-use glam::DVec3;
-
-use super::sheet::Sheet;
+use super::sheet::{Corner, Sheet};
+use super::trimesh::Irradiance;
+use crate::colour::Rgb;
 
 /// Unit normals whose difference is no longer than this are one.
 const SAME: f64 = 1e-2;
 
 /// Gives corners of curved facets of one paint, at one place and with one normal, the mean of their
-/// radiosities.
+/// light, as it leaves and as it arrives.
 pub(super) fn average_across_smooth_edges(sheets: &mut [Sheet]) {
     let mut meeting: HashMap<u32, Vec<(usize, usize)>> = HashMap::new();
     for (number, sheet) in sheets.iter().enumerate().filter(|(_, sheet)| sheet.curved) {
@@ -21,17 +21,20 @@ pub(super) fn average_across_smooth_edges(sheets: &mut [Sheet]) {
     for corners in meeting.values().filter(|corners| corners.len() > 1) {
         let means: Vec<_> =
             corners.iter().map(|&corner| mean_of_alike(sheets, corners, corner)).collect();
-        for (&(sheet, index), mean) in corners.iter().zip(means) {
-            sheets[sheet].corners[index].radiosity = mean;
+        for (&(sheet, index), [radiosity, direct, indirect]) in corners.iter().zip(means) {
+            let corner = &mut sheets[sheet].corners[index];
+            corner.radiosity = radiosity;
+            corner.irradiance = Irradiance { direct, indirect, ..corner.irradiance };
         }
     }
 }
 
+/// Means of radiosity, direct and indirect irradiance.
 fn mean_of_alike(
     sheets: &[Sheet],
     corners: &[(usize, usize)],
     (sheet, index): (usize, usize),
-) -> crate::colour::Rgb {
+) -> [Rgb; 3] {
     let (own, normal) = (&sheets[sheet], sheets[sheet].corners[index].normal);
     let paint = |other: &Sheet| (other.material, other.reflectance);
     let alike = corners
@@ -39,6 +42,12 @@ fn mean_of_alike(
         .filter(|&&(sheet, _)| paint(&sheets[sheet]) == paint(own))
         .map(|&(sheet, index)| &sheets[sheet].corners[index])
         .filter(|corner| corner.normal.distance(normal) <= SAME);
-    let (sum, count) = alike.fold((DVec3::ZERO, 0.0), |(s, n), c| (s + c.radiosity, n + 1.0));
-    sum / count
+    let mut sums = [Rgb::ZERO; 3];
+    let mut count = 0.0;
+    for Corner { radiosity, irradiance, .. } in alike {
+        let light = [*radiosity, irradiance.direct, irradiance.indirect];
+        sums.iter_mut().zip(light).for_each(|(sum, light)| *sum += light);
+        count += 1.0;
+    }
+    sums.map(|sum| sum / count)
 }

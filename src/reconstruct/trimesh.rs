@@ -5,6 +5,7 @@ use std::ops::Range;
 use glam::{DVec3, Vec2, Vec3};
 
 use crate::colour::Rgb;
+use crate::mesh::ElementId;
 use crate::scene::Texture;
 
 /// A conforming triangle mesh; all per-vertex lists are as long as `positions`.
@@ -27,6 +28,33 @@ pub struct TriMesh {
     pub parts: Vec<Part>,
     /// Pictures that parts refer to.
     pub textures: Vec<Texture>,
+    /// What arrives at each vertex; empty in a mesh read from a file.
+    pub irradiance: Vec<Irradiance>,
+    /// The leaf of the solution's mesh that each triangle is part of; empty in a mesh read from a file.
+    pub leaves: Vec<ElementId>,
+}
+
+/// Light that arrives at a vertex, W/m²: B = E + ρ (direct + indirect).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Irradiance {
+    /// Straight from emitters.
+    pub direct: Rgb,
+    /// Reflected by other surfaces.
+    pub indirect: Rgb,
+    /// Straight from emitters on the vertex's own facet alone: another than `direct` only where facets
+    /// of a curved surface share their light.
+    pub direct_on_facet: Rgb,
+}
+
+impl Irradiance {
+    /// Between this and another, at a `share` of the way, 0..=1.
+    pub(super) fn lerp(self, other: Self, share: f64) -> Self {
+        Self {
+            direct: self.direct.lerp(other.direct, share),
+            indirect: self.indirect.lerp(other.indirect, share),
+            direct_on_facet: self.direct_on_facet.lerp(other.direct_on_facet, share),
+        }
+    }
 }
 
 /// A run of triangles of one material.

@@ -4,10 +4,12 @@
 //! the centre, and, for direct light, at probes in between, so that a small shadow is not
 //! overlooked.
 
+mod lines;
+
 use smallvec::SmallVec;
 
 use crate::colour::Rgb;
-use crate::mesh::{ElementId, Mesh, Middle, Reason, Split, Vertex};
+use crate::mesh::{ElementId, Mesh, Middle, Reason, Split, Vertex, VertexId};
 use crate::settings::Settings;
 
 /// A halved quadrilateral may become this much longer than wide; its triangles then keep 11° and more.
@@ -22,7 +24,9 @@ const PLAIN_SIZE: f64 = 0.02;
 
 /// How strongly size counts. With 1, all elements would share the squared error alike, which gives
 /// the least in all for their number; with 0, the eye would find no element worse than another.
-const SIZE_POWER: f64 = 0.75;
+const SIZE_POWER: f64 = 1.0;
+
+pub use lines::{Discontinuity, cut, discontinuities};
 
 /// Judges elements by one kind of light.
 #[derive(Clone, Debug)]
@@ -87,6 +91,19 @@ impl Oracle {
         Some(halves.unwrap_or(round))
     }
 
+    /// The error of interpolation found in the middle of an element, as a share of what it is allowed.
+    pub fn excess(
+        &self,
+        (mesh, element): (&Mesh, ElementId),
+        middle: &Middle,
+        light: impl Fn(&Vertex) -> Rgb,
+    ) -> f64 {
+        let corners: SmallVec<[Rgb; 4]> =
+            mesh[element].corners.iter().map(|&v| light(&mesh[v])).collect();
+        let errors = Errors::new(&corners, middle, |v| light(&mesh[v]));
+        errors.largest() / self.allowed(mesh, element, &corners).max(f64::MIN_POSITIVE)
+    }
+
     /// The direction in which cutting a quadrilateral once is enough, if there is one.
     fn halving(&self, sides: [f64; 2], errors: &Errors, allowed: f64) -> Option<Split> {
         let leaves = |k: usize| errors.edges[1 - k].max(errors.across[k]);
@@ -95,13 +112,21 @@ impl Oracle {
         (leaves(best) <= RESIDUE * allowed && stays_round(best)).then_some(Split::Halves(best))
     }
 
+    /// The error of direct light that an element is allowed, W/m².
+    pub fn allowed_at(&self, mesh: &Mesh, element: ElementId) -> f64 {
+        let reflectance = mesh[mesh[element].patch].reflectance;
+        let light = |v: &VertexId| reflectance * mesh[*v].direct.unwrap_or_default().irradiance;
+        let corners: SmallVec<[Rgb; 4]> = mesh[element].corners.iter().map(light).collect();
+        self.allowed(mesh, element, &corners)
+    }
+
     /// The error that an element is allowed, W/m²: a share of the geometric mean of the radiosities
     /// here and in the whole scene.
     fn allowed(&self, mesh: &Mesh, element: ElementId, corners: &[Rgb]) -> f64 {
         let here = corners.iter().map(|&c| strength(c)).sum::<f64>() / corners.len() as f64;
         let around = (self.level * here.max(0.05 * self.level)).sqrt();
         let size = mesh[element].area.sqrt();
-        self.tolerance * around * (self.plain_size / size).powf(SIZE_POWER).clamp(0.3, 3.0)
+        self.tolerance * around * (self.plain_size / size).powf(SIZE_POWER).clamp(0.1, 5.0)
     }
 
     /// Why an element is divided.
@@ -118,7 +143,7 @@ impl Oracle {
 }
 
 impl Errors {
-    fn new(corners: &[Rgb], middle: &Middle, light: impl Fn(crate::mesh::VertexId) -> Rgb) -> Self {
+    fn new(corners: &[Rgb], middle: &Middle, light: impl Fn(VertexId) -> Rgb) -> Self {
         let n = corners.len();
         let edges: SmallVec<[Rgb; 8]> = middle.edges.iter().map(|&v| light(v)).collect();
         let centre = light(middle.centre);

@@ -6,8 +6,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::caster::{Caster, Hit, Sides, bounds};
-use super::picture::radiosity_at;
-use super::view::View;
+use super::rays::Rays;
+use super::shade::radiosity_at;
 use crate::colour::luminance;
 use crate::reconstruct::TriMesh;
 use crate::scene::Camera;
@@ -163,12 +163,12 @@ impl Judge<'_> {
     /// Lit area seen × √(share of the picture filled), less for backs and near things.
     fn score(&self, camera: &Camera) -> f64 {
         let width = (f64::from(TRIAL_HEIGHT) * self.aspect).ceil() as u32;
-        let view = View::new(camera, width, TRIAL_HEIGHT);
+        let rays = Rays::new(camera, width, TRIAL_HEIGHT);
         let mut tally = Tally::default();
         for row in 0..TRIAL_HEIGHT {
             for column in 0..width {
-                let direction = view.direction(f64::from(column) + 0.5, f64::from(row) + 0.5);
-                self.count(&view, direction, &mut tally);
+                let direction = rays.direction(f64::from(column) + 0.5, f64::from(row) + 0.5);
+                self.count(&rays, direction, &mut tally);
             }
         }
         let share = |count: f64| count / tally.rays;
@@ -178,8 +178,8 @@ impl Judge<'_> {
             * (1.0 - share(tally.near)).powi(2)
     }
 
-    fn count(&self, view: &View, direction: DVec3, tally: &mut Tally) {
-        let (eye, unit) = (view.eye, direction.normalize());
+    fn count(&self, rays: &Rays, direction: DVec3, tally: &mut Tally) {
+        let (eye, unit) = (rays.eye, direction.normalize());
         tally.rays += 1.0;
         let Some(hit) = self.caster.first(eye, unit, Sides::Both) else {
             return;
@@ -198,7 +198,7 @@ impl Judge<'_> {
         };
         tally.filled += 1.0;
         if luminance(radiosity_at(self.mesh, &front)) * self.exposure >= LIT {
-            let solid_angle = view.right.cross(view.down).length() / direction.length().powi(3);
+            let solid_angle = rays.right.cross(rays.down).length() / direction.length().powi(3);
             tally.lit_area += self.area_seen(&front, unit, solid_angle);
         }
     }

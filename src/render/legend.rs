@@ -1,136 +1,193 @@
-//! The strip at the picture's foot that says what its colours mean.
+//! The strip below a picture that says what it shows; the picture itself stays whole.
 
-use image::{Rgb as Pixel, RgbImage};
-use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
+use image::{GenericImage, Rgb as Pixel, RgbImage};
 
-use super::false_colour::{Map, colour_at};
-use super::scale::short_number;
+use super::colours::{self, Swatch};
+use super::letters::{INK, Letters, fill};
+use super::map::Map;
+use super::scale::{Scale, short_number};
 
-/// Smallest picture, pixels, that a legend fits into.
-const LEAST_SIZE: (u32, u32) = (160, 100);
-
-/// Height of a picture, pixels, from which the letters are larger.
-const LARGE_PICTURE: u32 = 1000;
+/// Narrowest picture, pixels, that a legend fits under.
+const LEAST_WIDTH: u32 = 96;
 
 /// sRGB-coded colour of the strip's ground.
 const GROUND: [u8; 3] = [16, 16, 16];
 
-/// sRGB-coded colour of letters and marks.
-const INK: [u8; 3] = [240, 240, 240];
-
-/// Draws the legend of `map` over the foot of `image`; a tiny image is left alone.
-pub(super) fn draw(image: &mut RgbImage, map: &Map) {
-    if image.width() < LEAST_SIZE.0 || image.height() < LEAST_SIZE.1 {
-        return;
-    }
-    let layout = Layout::new(image.width(), image.height());
-    for y in layout.top..image.height() {
-        for x in 0..image.width() {
-            image.put_pixel(x, y, Pixel(GROUND));
-        }
-    }
-    layout.draw_heading(image, map);
-    layout.draw_bar(image);
-    layout.draw_marks(image, map);
+/// What is said about a picture.
+pub(super) struct Legend<'a> {
+    /// What is shown, with its unit.
+    pub(super) label: &'static str,
+    /// Said to the right of the label, or below it.
+    pub(super) remark: String,
+    pub(super) body: Body<'a>,
 }
 
-/// Where things are, pixels: a heading, the bar under it, marks and their numbers under the bar.
+/// What colours mean.
+pub(super) enum Body<'a> {
+    Nothing,
+    Scale(&'a Scale),
+    Key(&'a [Swatch]),
+}
+
+impl Map {
+    /// Least and greatest value.
+    pub(super) fn extremes_in_words(&self) -> String {
+        self.extremes.map_or_else(String::new, |[low, high]| {
+            format!("min {}  max {}", short_number(low), short_number(high))
+        })
+    }
+}
+
+/// `picture` with its legend below it; a very narrow one is left alone.
+pub(super) fn below(picture: &RgbImage, legend: &Legend<'_>) -> RgbImage {
+    if picture.width() < LEAST_WIDTH {
+        return picture.clone();
+    }
+    let letters = Letters::for_picture(picture.width(), picture.height());
+    let layout = Layout::new(letters, picture.width(), legend);
+    let height = picture.height() + layout.height;
+    let mut image = RgbImage::from_pixel(picture.width(), height, Pixel(GROUND));
+    // The larger image holds the smaller one.
+    let _ = image.copy_from(picture, 0, 0);
+    layout.draw(&mut image, picture.height(), &legend.body);
+    image
+}
+
+/// Where things are, pixels from the top and left of the strip.
 struct Layout {
-    size: RasterHeight,
-    letter: u32,
-    line: u32,
-    /// Empty space around the strip's contents.
+    letters: Letters,
+    /// Empty space around things.
     margin: u32,
-    top: u32,
-    bar_top: u32,
+    /// Label and remark, each with its place.
+    words: Vec<(String, [u32; 2])>,
+    /// Places of a key's swatches.
+    swatches: Vec<[u32; 2]>,
+    body_top: u32,
     bar_left: u32,
     bar_width: u32,
+    height: u32,
 }
 
 impl Layout {
-    fn new(width: u32, height: u32) -> Self {
-        let size = if height < LARGE_PICTURE { RasterHeight::Size16 } else { RasterHeight::Size24 };
-        let letter = get_raster_width(FontWeight::Regular, size) as u32;
-        let line = size.val() as u32;
-        let margin = line / 4;
-        let top = height - (3 * line + 4 * margin);
-        // Numbers are centred under their marks and may stand out at the ends.
-        let bar_left = 3 * letter;
-        let bar_width = width - 2 * bar_left;
-        Self {
-            size,
-            letter,
-            line,
+    fn new(letters: Letters, width: u32, legend: &Legend<'_>) -> Self {
+        let margin = letters.height / 4;
+        let line = letters.height + margin;
+        let mut layout = Self {
+            letters,
             margin,
-            top,
-            bar_top: top + margin + line + margin,
-            bar_left,
-            bar_width,
-        }
-    }
-
-    fn draw_heading(&self, image: &mut RgbImage, map: &Map) {
-        let label = map.quantity.label();
-        let top = self.top + self.margin;
-        self.write(image, label, self.bar_left, top);
-        let Some([low, high]) = map.extremes else {
-            return;
+            words: Vec::new(),
+            swatches: Vec::new(),
+            body_top: margin,
+            // Numbers are centred under their marks and may stand out at the ends.
+            bar_left: 3 * letters.width,
+            bar_width: width - 6 * letters.width,
+            height: 0,
         };
-        let range = format!("min {}  max {}", short_number(low), short_number(high));
-        let wanted = (label.chars().count() + 2 + range.chars().count()) as u32 * self.letter;
-        if wanted <= self.bar_width {
-            let left = self.bar_left + self.bar_width - range.chars().count() as u32 * self.letter;
-            self.write(image, &range, left, top);
+        layout.place_words(width, legend);
+        let body = match legend.body {
+            Body::Nothing => 0,
+            Body::Scale(_) => 2 * line + margin,
+            Body::Key(key) => layout.place_swatches(width, key),
+        };
+        layout.height = layout.body_top + body;
+        layout
+    }
+
+    /// Label and remark on one line if they fit, else one below the other, broken where need be.
+    fn place_words(&mut self, width: u32, legend: &Legend<'_>) {
+        let Self { letters, bar_left, bar_width, .. } = *self;
+        let both =
+            letters.length(legend.label) + 2 * letters.width + letters.length(&legend.remark);
+        if both <= bar_width {
+            let right = width - bar_left - letters.length(&legend.remark);
+            self.words.push((legend.label.to_owned(), [bar_left, self.body_top]));
+            self.words.push((legend.remark.clone(), [right, self.body_top]));
+            self.body_top += letters.height + self.margin;
+            return;
+        }
+        let most = ((width - 2 * self.margin) / letters.width) as usize;
+        let text = [legend.label, &legend.remark];
+        for line in text.into_iter().flat_map(|text| lines(text, most)) {
+            self.words.push((line, [self.margin, self.body_top]));
+            self.body_top += letters.height + self.margin;
         }
     }
 
-    fn draw_bar(&self, image: &mut RgbImage) {
-        for x in 0..self.bar_width {
-            let place = f64::from(x) / f64::from((self.bar_width - 1).max(1));
-            let colour = colour_at(place).to_array().map(|coded| (coded * 255.0).round() as u8);
-            for y in 0..self.line {
-                image.put_pixel(self.bar_left + x, self.bar_top + y, Pixel(colour));
+    /// Swatches side by side, in as many rows as they need. Returns the height of all.
+    fn place_swatches(&mut self, width: u32, key: &[Swatch]) -> u32 {
+        let line = self.letters.height + self.margin;
+        let first = self.bar_left.min(self.letters.width);
+        let (mut left, mut top) = (first, 0);
+        for swatch in key {
+            let length = self.swatch_width() + self.letters.length(&swatch.name);
+            if left > first && left + length > width {
+                (left, top) = (first, top + line);
             }
+            self.swatches.push([left, self.body_top + top]);
+            left += length + 2 * self.letters.width;
         }
+        top + line
     }
 
-    fn draw_marks(&self, image: &mut RgbImage, map: &Map) {
-        let most = (self.bar_width / (9 * self.letter)).clamp(2, 10);
-        let foot = self.bar_top + self.line;
-        let mut free_from = 0;
-        for mark in map.scale.marks(most as usize) {
-            let along = map.scale.place(mark) * f64::from(self.bar_width - 1);
-            let x = self.bar_left + along.round() as u32;
-            for y in foot..foot + self.margin {
-                image.put_pixel(x, y, Pixel(INK));
-            }
-            let text = short_number(mark);
-            let width = text.chars().count() as u32 * self.letter;
-            let left = x.saturating_sub(width / 2).min(image.width().saturating_sub(width));
-            if left >= free_from {
-                self.write(image, &text, left, foot + self.margin);
-                free_from = left + width + self.letter;
-            }
-        }
+    /// Pixels from the left of a swatch to the left of its name.
+    fn swatch_width(&self) -> u32 {
+        self.letters.height + self.margin
     }
 
-    fn write(&self, image: &mut RgbImage, text: &str, left: u32, top: u32) {
-        let glyphs = text.chars().filter_map(|c| get_raster(c, FontWeight::Regular, self.size));
-        for (glyph, position) in glyphs.zip(0..) {
-            for (row, y) in glyph.rows().zip(top..) {
-                for (&intensity, x) in row.iter().zip(left + position * self.letter..) {
-                    blend_ink(image, x, y, intensity);
+    fn draw(&self, image: &mut RgbImage, strip: u32, body: &Body<'_>) {
+        for (text, [left, top]) in &self.words {
+            self.letters.write(image, text, [*left, strip + top]);
+        }
+        match body {
+            Body::Nothing => {}
+            Body::Scale(scale) => self.draw_scale(image, strip + self.body_top, scale),
+            Body::Key(key) => {
+                for (swatch, &[left, top]) in key.iter().zip(&self.swatches) {
+                    let size = self.letters.height;
+                    fill(image, [left, strip + top, size, size], swatch.colour);
+                    let name = [left + self.swatch_width(), strip + top];
+                    self.letters.write(image, &swatch.name, name);
                 }
             }
         }
     }
-}
 
-fn blend_ink(image: &mut RgbImage, x: u32, y: u32, intensity: u8) {
-    if let Some(pixel) = image.get_pixel_mut_checked(x, y) {
-        for (under, ink) in pixel.0.iter_mut().zip(INK) {
-            let share = f64::from(intensity) / 255.0;
-            *under = (f64::from(*under) * (1.0 - share) + f64::from(ink) * share).round() as u8;
+    /// The bar, and marks with their numbers under it.
+    fn draw_scale(&self, image: &mut RgbImage, top: u32, scale: &Scale) {
+        for x in 0..self.bar_width {
+            let place = f64::from(x) / f64::from((self.bar_width - 1).max(1));
+            let colour = colours::at(place).to_array().map(|coded| (coded * 255.0).round() as u8);
+            fill(image, [self.bar_left + x, top, 1, self.letters.height], colour);
+        }
+        let most = (self.bar_width / (9 * self.letters.width)).clamp(2, 10);
+        let foot = top + self.letters.height;
+        let mut free_from = 0;
+        for mark in scale.marks(most as usize) {
+            let along = scale.place(mark) * f64::from(self.bar_width - 1);
+            let x = self.bar_left + along.round() as u32;
+            fill(image, [x, foot, 1, self.margin], INK);
+            let text = short_number(mark);
+            let width = self.letters.length(&text);
+            let left = x.saturating_sub(width / 2).min(image.width().saturating_sub(width));
+            if left >= free_from {
+                self.letters.write(image, &text, [left, foot + self.margin]);
+                free_from = left + width + self.letters.width;
+            }
         }
     }
+}
+
+/// A text in lines of at most `most` letters, broken between words; a longer word stays whole.
+fn lines(text: &str, most: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= most => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
 }

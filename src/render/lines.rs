@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::caster::Hit;
-use super::view::View;
+use super::rays::Rays;
 use crate::reconstruct::TriMesh;
 
 /// Height of a triangle in the picture, pixels, below which its lines fade, so that fine meshes
@@ -15,15 +15,15 @@ const FULL_STRENGTH: f64 = 6.0;
 /// An edge's function d·(P×Q) is linear in the direction d and so in the picture's coordinates:
 /// divided by its gradient it is the distance in pixels. Lines fall off linearly to one pixel on
 /// either side, which looks one pixel wide; neighbours draw half a line each.
-pub(super) fn line_coverage(mesh: &TriMesh, view: &View, direction: DVec3, hit: &Hit) -> f64 {
+pub(super) fn line_coverage(mesh: &TriMesh, rays: &Rays, direction: DVec3, hit: &Hit) -> f64 {
     let [a, b, c] =
-        mesh.triangles[hit.triangle].map(|corner| mesh.positions[corner as usize] - view.eye);
+        mesh.triangles[hit.triangle].map(|corner| mesh.positions[corner as usize] - rays.eye);
     let mut nearest = f64::INFINITY;
     let mut lowest = f64::INFINITY;
     for (edge, weight) in
         [(c.cross(b), hit.weights.x), (a.cross(c), hit.weights.y), (b.cross(a), hit.weights.z)]
     {
-        let gradient = view.right.dot(edge).hypot(view.down.dot(edge));
+        let gradient = rays.right.dot(edge).hypot(rays.down.dot(edge));
         let distance = (direction.dot(edge) / gradient).abs();
         nearest = nearest.min(distance);
         if weight > 0.0 {

@@ -1,21 +1,29 @@
-//! Pictures of a mesh that carries its light.
+//! Pictures of a mesh that carries its light, and of how it came by it.
 //!
 //! Triangles are seen from their front only, so that one looks into a closed room from outside.
 
 mod automatic_camera;
 mod caster;
+mod colours;
 mod display;
-mod false_colour;
+mod final_gather;
+mod leaves;
 mod legend;
+mod letters;
 mod lines;
+mod map;
 mod picture;
+mod rays;
 mod save;
 mod scale;
+mod shade;
 mod texture;
+mod tracer;
 mod view;
 
 pub use automatic_camera::automatic_camera;
 pub use display::Display;
-pub use false_colour::{FalseColour, Quantity};
-pub use picture::{Picture, RenderOptions, render};
+pub use picture::{Picture, RenderOptions, Subject, render, render_solved};
 pub use save::{check_writable, save};
+pub use shade::Solved;
+pub use view::View;

@@ -1,154 +1,135 @@
-//! A picture of a mesh: what it holds and how its pixels are found.
+//! A picture of a mesh: what it holds, and what it is made from.
 
-use std::f64::consts::PI;
+use std::ops::ControlFlow;
 
-use glam::{Vec2, Vec3};
-use rayon::prelude::*;
+use glam::Vec3;
 
-use super::caster::{Caster, Hit, Sides};
-use super::lines::line_coverage;
-use super::texture;
+use super::colours::Swatch;
+use super::final_gather::FinalGather;
+use super::shade::{Shade, Solved};
+use super::tracer::Tracer;
 use super::view::View;
 use crate::colour::Rgb;
 use crate::reconstruct::TriMesh;
 use crate::scene::Camera;
 
-/// Least mean of a texture by which a radiosity is divided; darker texels hold no information.
-const LEAST_TEXTURE_MEAN: f64 = 1e-6;
-
 /// Linear pixels; all lists run row by row from the top and hold `width * height` values.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
+    /// What is shown.
+    pub view: View,
     /// Pixels a row.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Radiance, W/(m² sr), linear RGB, the background included.
-    pub radiance: Vec<Vec3>,
+    /// Linear RGB, the background included: radiance, W/(m² sr), of light, mesh and radiosity;
+    /// irradiance, W/m²; the share of the allowed error; or colours that stand for levels and reasons.
+    pub values: Vec<Vec3>,
     /// Share of each pixel that shows the mesh, 0..=1.
     pub coverage: Vec<f32>,
-    /// Strength of the mesh's lines, 0..=1; empty unless asked for.
+    /// Strength of the mesh's lines, 0..=1; empty in views without.
     pub lines: Vec<f32>,
-    /// Radiance where there is no mesh, W/(m² sr).
+    /// Value where there is no mesh.
     pub background: Rgb,
+    /// What the mesh is made of, in words.
+    pub(super) caption: String,
+    /// What colours stand for, where values are colours.
+    pub(super) key: Vec<Swatch>,
 }
 
 /// What a picture should hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderOptions {
+    /// What to show, default the light.
+    pub view: View,
     /// Pixels a row, default 800.
     pub width: u32,
     /// Rows, default 600.
     pub height: u32,
-    /// Rays a pixel along each axis, at least 1, default 4; the time grows with its square.
+    /// Rays a pixel along each axis, at least 1, default 4. From 3 on, pixels that look smooth, with
+    /// those beside them, after the first few rays, one a row and column of the grid, get no more.
     pub samples: u32,
-    /// Whether to find the mesh's lines, for display over the light; default no.
-    pub wireframe: bool,
-    /// Radiance where there is no mesh, W/(m² sr), default 0.
+    /// Whether to evaluate direct light anew at every sample, or at one in smooth pixels, instead of
+    /// interpolating it, which needs a [`Solved`]; default no.
+    pub final_gather: bool,
+    /// Radiance where there is no mesh, W/(m² sr), default 0; not in views of other quantities.
     pub background: Rgb,
 }
 
 impl Default for RenderOptions {
     fn default() -> Self {
-        Self { width: 800, height: 600, samples: 4, wireframe: false, background: Rgb::ZERO }
+        Self {
+            view: View::Light,
+            width: 800,
+            height: 600,
+            samples: 4,
+            final_gather: false,
+            background: Rgb::ZERO,
+        }
     }
+}
+
+/// What a picture is taken of.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// What is seen.
+    pub mesh: &'a TriMesh,
+    /// What it was made from, for views that need it and for final gathering.
+    pub solved: Option<Solved<'a>>,
 }
 
 /// The picture of `mesh` from `camera`: radiance B/π, averaged over each pixel.
 ///
 /// Radiosity is interpolated linearly over the triangles; on textured parts it is multiplied by
-/// texture over texture mean. Back sides are not seen.
+/// texture over texture mean. Back sides are not seen. Views that [need a
+/// solution](View::needs_solution) show nothing.
 pub fn render(mesh: &TriMesh, camera: &Camera, options: &RenderOptions) -> Picture {
-    let caster = Caster::new(mesh);
-    let view = View::new(camera, options.width, options.height);
-    let tracer = Tracer { mesh, caster: &caster, view: &view, options };
-    let count = options.width as usize * options.height as usize;
-    let pixels: Vec<Pixel> = (0..count).into_par_iter().map(|index| tracer.pixel(index)).collect();
+    let subject = Subject { mesh, solved: None };
+    render_solved(subject, camera, options, |_| ControlFlow::Continue(()))
+}
+
+/// The same of a solution, with all views; with [`RenderOptions::final_gather`], direct light is
+/// exact where it is shown, not interpolated.
+///
+/// `observe` is told how much is done, 0..=1; when it breaks off, the rest of the picture is
+/// interpolated.
+pub fn render_solved(
+    subject: Subject<'_>,
+    camera: &Camera,
+    options: &RenderOptions,
+    mut observe: impl FnMut(f64) -> ControlFlow<()>,
+) -> Picture {
+    let mesh = subject.mesh;
+    let gather = options.final_gather.then_some(()).and(subject.solved.as_ref());
+    let gather = gather.map(|solved| FinalGather::new(solved.surfaces, &solved.solution.mesh));
+    let shade = Shade::new(subject, options.view);
+    let key = shade.key.clone();
+    let background = if options.view.shows_radiance() { options.background } else { Rgb::ZERO };
+    let pixels =
+        Tracer::new((camera, options), shade, background).trace(gather.as_ref(), &mut observe);
     Picture {
+        view: options.view,
         width: options.width,
         height: options.height,
-        radiance: pixels.iter().map(|pixel| pixel.radiance.as_vec3()).collect(),
+        values: pixels.iter().map(|pixel| pixel.value.as_vec3()).collect(),
         coverage: pixels.iter().map(|pixel| pixel.coverage as f32).collect(),
-        lines: match options.wireframe {
+        lines: match options.view.shows_lines() {
             true => pixels.iter().map(|pixel| pixel.line as f32).collect(),
             false => Vec::new(),
         },
-        background: options.background,
+        background,
+        caption: caption(mesh),
+        key,
     }
 }
 
-/// Means over a pixel.
-#[derive(Clone, Copy, Default)]
-struct Pixel {
-    radiance: Rgb,
-    coverage: f64,
-    line: f64,
-}
-
-struct Tracer<'a> {
-    mesh: &'a TriMesh,
-    caster: &'a Caster,
-    view: &'a View,
-    options: &'a RenderOptions,
-}
-
-impl Tracer<'_> {
-    fn pixel(&self, index: usize) -> Pixel {
-        let width = self.options.width as usize;
-        let (left, top) = ((index % width) as f64, (index / width) as f64);
-        let samples = self.options.samples.max(1);
-        let mut sum = Pixel::default();
-        for i in 0..samples {
-            for j in 0..samples {
-                let (x, y) = place_of_sample(i, j, samples);
-                self.add_sample(left + x, top + y, &mut sum);
-            }
-        }
-        let share = 1.0 / f64::from(samples).powi(2);
-        Pixel {
-            radiance: sum.radiance * share,
-            coverage: sum.coverage * share,
-            line: sum.line * share,
-        }
+/// Numbers of triangles and of leaves.
+fn caption(mesh: &TriMesh) -> String {
+    let mut leaves = mesh.leaves.clone();
+    leaves.sort_unstable();
+    leaves.dedup();
+    match leaves.len() {
+        0 => format!("{} triangles", mesh.triangles.len()),
+        count => format!("{} triangles, {count} elements", mesh.triangles.len()),
     }
-
-    fn add_sample(&self, x: f64, y: f64, sum: &mut Pixel) {
-        let direction = self.view.direction(x, y);
-        let hit = self.caster.first(self.view.eye, direction.normalize(), Sides::Front);
-        let Some(hit) = hit else {
-            sum.radiance += self.options.background;
-            return;
-        };
-        sum.radiance += radiosity_at(self.mesh, &hit) / PI;
-        sum.coverage += 1.0;
-        if self.options.wireframe {
-            sum.line += line_coverage(self.mesh, self.view, direction, &hit);
-        }
-    }
-}
-
-/// Place in a pixel, 0..1, of sample `i`, `j` out of `samples` squared: on a grid turned so that
-/// no two samples share a row or column, which grades edges near the axes finest.
-fn place_of_sample(i: u32, j: u32, samples: u32) -> (f64, f64) {
-    let [i, j, n] = [i, j, samples].map(f64::from);
-    ((i + (j + 0.5) / n) / n, (j + (n - i - 0.5) / n) / n)
-}
-
-/// Radiosity, W/m², at `hit`, textured.
-pub(super) fn radiosity_at(mesh: &TriMesh, hit: &Hit) -> Rgb {
-    let corners = mesh.triangles[hit.triangle].map(|corner| corner as usize);
-    let weights = hit.weights.to_array();
-    let mix = |values: &[Rgb]| -> Rgb {
-        corners.iter().zip(weights).map(|(&corner, weight)| values[corner] * weight).sum()
-    };
-    let radiosity = mix(&mesh.radiosity);
-    let part = mesh.parts.partition_point(|part| part.triangles.end <= hit.triangle);
-    let texture = mesh.parts.get(part).and_then(|part| part.texture);
-    let Some(texture) = texture.and_then(|index| mesh.textures.get(index as usize)) else {
-        return radiosity;
-    };
-    let uv: Vec2 =
-        corners.iter().zip(weights).map(|(&corner, weight)| mesh.uvs[corner] * weight as f32).sum();
-    let mean = mix(&mesh.texture_mean).max(Rgb::splat(LEAST_TEXTURE_MEAN));
-    radiosity / mean * texture::sample(texture, uv)
 }

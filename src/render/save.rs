@@ -14,7 +14,7 @@ use crate::file;
 const ENDINGS: &str = ".png, .hdr, .exr";
 
 /// Writes `picture` as the ending of `path` says: `.png` as `display` shows it, in 8-bit sRGB;
-/// `.hdr` and `.exr` the linear radiance, W/(m² sr), without lines and legend.
+/// `.hdr` and `.exr` the linear [values](Picture::values), without lines and legend.
 /// Missing directories are made; the file appears whole or not at all.
 ///
 /// # Errors
@@ -23,7 +23,7 @@ pub fn save(picture: &Picture, path: &Path, display: &Display) -> Result<()> {
     let format = format_of(path)?;
     let image: DynamicImage = match format {
         ImageFormat::Png => displayed(picture, display).into(),
-        _ => radiance(picture).into(),
+        _ => linear(picture).into(),
     };
     file::replace(path, |out| image.write_to(out, format).map_err(io::Error::other))
 }
@@ -47,9 +47,9 @@ fn format_of(path: &Path) -> Result<ImageFormat> {
     }
 }
 
-fn radiance(picture: &Picture) -> Rgb32FImage {
+fn linear(picture: &Picture) -> Rgb32FImage {
     Rgb32FImage::from_fn(picture.width, picture.height, |x, y| {
         let index = y as usize * picture.width as usize + x as usize;
-        image::Rgb(picture.radiance[index].to_array())
+        image::Rgb(picture.values[index].to_array())
     })
 }

@@ -37,6 +37,11 @@ impl Scale {
         Self { low, high, logarithmic }
     }
 
+    /// The upper end.
+    pub(super) fn high(&self) -> f64 {
+        self.high
+    }
+
     /// Place of `value` along the scale, 0..=1; values beyond the ends are at the ends.
     pub(super) fn place(&self, value: f64) -> f64 {
         let part = if self.logarithmic {

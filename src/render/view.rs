@@ -1,35 +1,89 @@
-//! Which ray belongs to which place in the picture.
+//! What pictures can show.
 
-use glam::DVec3;
+use std::f64::consts::PI;
 
-use crate::scene::Camera;
+use crate::colour::{LUMENS_PER_WATT, Rgb, luminance};
 
-/// A camera with a picture's size.
-pub(super) struct View {
-    pub(super) eye: DVec3,
-    /// Direction to the picture's top left corner, not of unit length.
-    corner: DVec3,
-    /// Change of direction a pixel to the right.
-    pub(super) right: DVec3,
-    /// Change of direction a pixel down.
-    pub(super) down: DVec3,
+/// What a picture shows, each but the first with a legend.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum View {
+    /// The light as the eye would see it.
+    #[default]
+    Light,
+    /// The same with the mesh drawn over it.
+    Wireframe,
+    /// Radiosity, W/m², weighted by luminance over the channels.
+    Radiosity,
+    /// Irradiance straight from emitters, W/m², weighted likewise.
+    Direct,
+    /// Irradiance by reflected light, W/m², weighted likewise.
+    Indirect,
+    /// Illuminance by both, lm/m² (lux) at 683 lm/W, with lines of equal illuminance.
+    Illuminance,
+    /// How often patches were divided in a row.
+    Level,
+    /// Why elements were divided.
+    Reason,
+    /// The error of interpolation in the middle of leaves, as a share of what they are allowed.
+    Error,
 }
 
 impl View {
-    /// A view that exists for every camera: one that looks nowhere looks along −z.
-    pub(super) fn new(camera: &Camera, width: u32, height: u32) -> Self {
-        let forward = (camera.target - camera.eye).normalize_or(DVec3::NEG_Z);
-        let side = forward.cross(camera.up).normalize_or(forward.any_orthonormal_vector());
-        let up = side.cross(forward);
-        let (width, height) = (f64::from(width.max(1)), f64::from(height.max(1)));
-        let pixel = 2.0 * (camera.vertical_fov / 2.0).tan() / height;
-        let (right, down) = (side * pixel, -up * pixel);
-        let corner = forward - right * (width / 2.0) - down * (height / 2.0);
-        Self { eye: camera.eye, corner, right, down }
+    /// All views.
+    pub const ALL: [Self; 9] = [
+        Self::Light,
+        Self::Wireframe,
+        Self::Radiosity,
+        Self::Direct,
+        Self::Indirect,
+        Self::Illuminance,
+        Self::Level,
+        Self::Reason,
+        Self::Error,
+    ];
+
+    /// True if a mesh read from a file does not carry what it shows: only a solution does.
+    pub fn needs_solution(self) -> bool {
+        !matches!(self, Self::Light | Self::Wireframe | Self::Radiosity)
     }
 
-    /// Direction of the ray through `x` pixels from the left and `y` from the top; not of unit length.
-    pub(super) fn direction(&self, x: f64, y: f64) -> DVec3 {
-        self.corner + x * self.right + y * self.down
+    /// True if values are radiances, W/(m² sr).
+    pub(super) fn shows_radiance(self) -> bool {
+        matches!(self, Self::Light | Self::Wireframe | Self::Radiosity)
+    }
+
+    /// True if values are the colours to be seen, linear.
+    pub(super) fn shows_colours(self) -> bool {
+        matches!(self, Self::Level | Self::Reason)
+    }
+
+    /// True if the edges of the mesh belong in the picture.
+    pub(super) fn shows_lines(self) -> bool {
+        matches!(self, Self::Wireframe | Self::Level | Self::Reason)
+    }
+
+    /// Name and unit of what is shown, as the legend says them.
+    pub(super) fn label(self) -> &'static str {
+        match self {
+            Self::Light => "light",
+            Self::Wireframe => "mesh",
+            Self::Radiosity => "radiosity, W/m²",
+            Self::Direct => "direct irradiance, W/m²",
+            Self::Indirect => "indirect irradiance, W/m²",
+            Self::Illuminance => "illuminance, lx",
+            Self::Level => "level of leaves",
+            Self::Reason => "why leaves were made",
+            Self::Error => "interpolation error / allowed error",
+        }
+    }
+
+    /// The number, in the unit of the label, that a value stands for.
+    pub(super) fn number(self, value: Rgb) -> f64 {
+        let weighted = luminance(value).max(0.0);
+        match self {
+            Self::Light | Self::Wireframe | Self::Radiosity => weighted * PI,
+            Self::Illuminance => weighted * LUMENS_PER_WATT,
+            _ => weighted,
+        }
     }
 }

@@ -7,7 +7,7 @@ use super::{Observer, Phase};
 use crate::colour::Rgb;
 use crate::direct::{Lamps, light_vertices};
 use crate::mesh::{Direct, ElementId, Mesh, Middle, Split, Vertex, VertexId};
-use crate::refine::{Oracle, strength};
+use crate::refine::{Discontinuity, Oracle, cut, discontinuities, strength};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
@@ -58,8 +58,11 @@ pub(super) fn refine(
     if settings.uniform.is_some() {
         return;
     }
+    let share = std::env::var("DS").map_or(1.0, |s| s.parse::<f64>().unwrap());
+    let settings = &Settings { tolerance: settings.tolerance * share, ..settings.clone() };
     let oracle = Oracle::new(settings, world.surfaces.extent, mean_radiosity(mesh));
     let mut candidates: Vec<ElementId> = mesh.leaves().collect();
+    let mut lines: Vec<Option<Vec<Discontinuity>>> = vec![None; mesh.patches.len()];
     for level in 0..settings.max_level {
         let share = f64::from(level) / f64::from(settings.max_level);
         if observer.tell(Phase::Direct, share).is_break() {
@@ -72,6 +75,11 @@ pub(super) fn refine(
         let verdicts: Vec<Option<Split>> =
             judged.map(|(&e, middle)| judge(world, mesh, &oracle, e, middle)).collect();
 
+        let verdicts = if std::env::var("NL").is_ok() {
+            verdicts
+        } else {
+            along_lines(world, (mesh, &oracle), &mut lines, (&candidates, verdicts))
+        };
         let mut parts = Vec::new();
         for ((&element, middle), verdict) in candidates.iter().zip(&middles).zip(verdicts) {
             if let Some(split) = verdict {
@@ -81,6 +89,41 @@ pub(super) fn refine(
         }
         candidates = parts;
     }
+}
+
+/// Cuts along discontinuity lines instead, where one carries more than is allowed.
+fn along_lines(
+    world: World<'_>,
+    (mesh, oracle): (&Mesh, &Oracle),
+    lines: &mut [Option<Vec<Discontinuity>>],
+    (candidates, verdicts): (&[ElementId], Vec<Option<Split>>),
+) -> Vec<Option<Split>> {
+    let split = candidates
+        .iter()
+        .zip(&verdicts)
+        .filter(|(_, verdict)| std::env::var("OV").is_err() || verdict.is_some());
+    let mut patches: Vec<usize> = split.map(|(&e, _)| mesh[e].patch.index()).collect();
+    patches.dedup();
+    patches.sort_unstable();
+    patches.dedup();
+    patches.retain(|&patch| lines[patch].is_none());
+    let World { surfaces, occluders, lamps } = world;
+    let found = patches
+        .par_iter()
+        .map(|&patch| discontinuities((surfaces, &mesh.patches[patch]), lamps, occluders));
+    let found: Vec<_> = found.collect();
+    for (&patch, found) in patches.iter().zip(found) {
+        lines[patch] = Some(found);
+    }
+    let choose = |(&element, verdict): (&ElementId, Option<Split>)| {
+        let lines = lines[mesh[element].patch.index()].as_deref().unwrap_or(&[]);
+        if std::env::var("OV").is_ok() && verdict.is_none() {
+            return None;
+        }
+        let allowed = oracle.allowed_at(mesh, element);
+        cut((mesh, element), lines, allowed, surfaces.tolerance).or(verdict)
+    };
+    candidates.par_iter().zip(verdicts).map(choose).collect()
 }
 
 /// Black surfaces show no light, so nothing is gained by dividing them.

@@ -1,7 +1,7 @@
 //! Light on elements, constant over each, at all levels of the trees.
 
 use crate::colour::Rgb;
-use crate::mesh::{ElementId, Mesh};
+use crate::mesh::{ElementId, Mesh, Patch, VertexId};
 
 /// Light on every element of a mesh; all lists are one entry per element.
 #[derive(Clone, Debug, Default)]
@@ -20,6 +20,15 @@ impl ElementLight {
         Self { indirect: vec![Rgb::ZERO; direct.len()], direct }
     }
 
+    /// All light, from the vertices.
+    pub(super) fn of_vertices(mesh: &Mesh) -> Self {
+        let indirect = |v: VertexId| mesh[v].indirect.unwrap_or_default();
+        Self {
+            direct: pull(mesh, |element| mean_direct(mesh, element)),
+            indirect: pull(mesh, |element| mean(mesh, element, indirect)),
+        }
+    }
+
     /// Settles the light received at all levels, so that every element has its mean.
     pub fn settle(&mut self, mesh: &Mesh, received: &[Rgb]) {
         let mut sum = received.to_vec();
@@ -30,6 +39,18 @@ impl ElementLight {
             }
         }
         self.indirect = pull(mesh, |element| sum[element.index()]);
+    }
+
+    /// Lets a little light that is still unshot arrive where such light has arrived before.
+    ///
+    /// `ambient` is what it would be on every surface, W/m². Places that none has reached stay dark.
+    pub(super) fn scale_to_the_rest(&mut self, mesh: &Mesh, ambient: Rgb) {
+        let area = |patch: &Patch| mesh[patch.root].area;
+        let received = |patch: &Patch| self.indirect[patch.root.index()] * area(patch);
+        let received: Rgb = mesh.patches.iter().map(received).sum();
+        let rest = ambient * mesh.patches.iter().map(area).sum::<f64>();
+        let factor = Rgb::ONE + rest / received.max(rest).max(Rgb::splat(f64::MIN_POSITIVE));
+        self.indirect.iter_mut().for_each(|light| *light *= factor);
     }
 
     /// Irradiance by reflected light at vertices, W/m², one per vertex: the mean of the leaves
@@ -65,13 +86,16 @@ fn pull(mesh: &Mesh, leaf: impl Fn(ElementId) -> Rgb) -> Vec<Rgb> {
     values
 }
 
-/// Mean direct irradiance of a leaf: by Simpson's rule.
+/// Mean direct irradiance of a leaf.
 fn mean_direct(mesh: &Mesh, element: ElementId) -> Rgb {
-    let at = |v: crate::mesh::VertexId| mesh[v].direct.unwrap_or_default().irradiance;
+    mean(mesh, element, |v| mesh[v].direct.unwrap_or_default().irradiance)
+}
+
+/// Mean over a leaf of what is known at its corners and, it may be, in its middle: by Simpson's rule.
+fn mean(mesh: &Mesh, element: ElementId, at: impl Fn(VertexId) -> Rgb) -> Rgb {
     let corners = &mesh[element].corners;
-    let mean = |values: &[crate::mesh::VertexId]| {
-        values.iter().map(|&v| at(v)).sum::<Rgb>() / values.len() as f64
-    };
+    let mean =
+        |values: &[VertexId]| values.iter().map(|&v| at(v)).sum::<Rgb>() / values.len() as f64;
     match mesh.find_middle(element) {
         Some(middle) if corners.len() == 4 => {
             (mean(corners) + mean(&middle.edges) * 4.0 + at(middle.centre) * 4.0) / 9.0

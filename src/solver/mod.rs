@@ -51,8 +51,8 @@ pub struct Solution {
     pub hemicubes: [usize; 2],
     /// Irradiance added for the light still unshot, W/m²; zero when converged.
     pub ambient: Rgb,
-    /// How each exchange of reflected light converged, patch by patch.
-    pub history: Vec<Vec<Step>>,
+    /// How the exchange of reflected light converged, patch by patch.
+    pub history: Vec<Step>,
 }
 
 /// Why a solver stopped.
@@ -114,8 +114,8 @@ const DARK: &str = "nothing in the scene emits light; give a material an emissio
 /// Gathering resolves differences down to this share of the tolerated error.
 const GATHER_SHARE: f64 = 0.1;
 
-/// Reflected light is exchanged this often: on the mesh that direct light asks for, and on the one
-/// that it itself does.
+/// How often light is gathered: from what the exchange left on the elements, then from what the first
+/// gathering found at their vertices. A third changed no result.
 const ROUNDS: usize = 2;
 
 /// Lights `surfaces`, telling `observe` about each step; when that breaks off, what is there is
@@ -145,7 +145,7 @@ pub fn solve(
     direct_pass::light_leaves(world, &mut mesh);
     let mut exchange = Exchange::new(world, settings, &mesh, &mut observer)?;
     let gathered = if exchange.stop == Stop::Converged {
-        gather(world, settings, (&mut mesh, &mut exchange), &mut observer)?
+        gather(world, settings, (&mut mesh, &mut exchange), &mut observer)
     } else {
         exchange.spread(&mut mesh);
         0
@@ -170,29 +170,26 @@ fn gather(
     settings: &Settings,
     (mesh, exchange): (&mut Mesh, &mut Exchange),
     observer: &mut Observer<'_>,
-) -> Result<usize> {
+) -> usize {
     let level = direct_pass::mean_radiosity(mesh);
     let fine = GATHER_SHARE * settings.tolerance * level;
-    let oracle = Oracle::new(settings, world.surfaces.extent, level);
+    let share = std::env::var("IS").map_or(1.0, |s| s.parse::<f64>().unwrap());
+    let settings2 = &Settings { tolerance: settings.tolerance * share, ..settings.clone() };
+    let oracle = Oracle::new(settings2, world.surfaces.extent, level);
     let mut gatherer = Gatherer::new(world, exchange.sources(mesh), fine);
     for round in 1..=ROUNDS {
         indirect_pass::refine((settings, &oracle), &mut gatherer, mesh, observer);
         direct_pass::light_leaves(world, mesh);
         if round < ROUNDS && observer.flow.is_continue() {
-            let mut next = Exchange::new(world, settings, mesh, observer)?;
-            exchange.history.append(&mut next.history);
-            if next.stop == Stop::Converged {
-                next.history = std::mem::take(&mut exchange.history);
-                *exchange = next;
-                gatherer.replace_sources(mesh, exchange.sources(mesh));
-            }
+            indirect_pass::interpolate(mesh);
+            gatherer.replace_sources(mesh, Sources::of_vertices(mesh));
         }
     }
     if observer.flow.is_break() {
         exchange.stop = Stop::Cancelled;
     }
     indirect_pass::interpolate(mesh);
-    Ok(gatherer.gathered)
+    gatherer.gathered
 }
 
 /// Reflected light, exchanged between the patches of a mesh as it is.
@@ -203,7 +200,7 @@ struct Exchange {
     shots: usize,
     hemicubes: usize,
     ambient: Rgb,
-    history: Vec<Vec<Step>>,
+    history: Vec<Step>,
 }
 
 impl Exchange {
@@ -216,10 +213,14 @@ impl Exchange {
         let mut light = ElementLight::direct(mesh);
         let mut shooting = Shooting::new(mesh, world, settings, &light);
         let (stop, history) = shooting.run(settings, observer)?;
-        let ambient = if stop == Stop::Converged { Rgb::ZERO } else { shooting.ambient() };
         light.settle(mesh, &shooting.received);
+        let ambient = if stop == Stop::Converged {
+            light.scale_to_the_rest(mesh, shooting.ambient());
+            Rgb::ZERO
+        } else {
+            shooting.ambient()
+        };
         let Shooting { energy, shots, hemicubes, .. } = shooting;
-        let history = vec![history];
         Ok(Self { light, energy, stop, shots, hemicubes, ambient, history })
     }
 

@@ -5,7 +5,7 @@ use smallvec::SmallVec;
 
 use super::ElementLight;
 use crate::colour::Rgb;
-use crate::mesh::{ElementId, Mesh, PatchId};
+use crate::mesh::{ElementId, Mesh, PatchId, Vertex};
 use crate::refine::strength;
 use crate::surface::Surfaces;
 
@@ -43,6 +43,12 @@ impl Sources {
             sources.spread[index] = sources.deviation(mesh, ElementId(index as u32));
         }
         sources
+    }
+
+    /// From the light of all vertices.
+    pub(super) fn of_vertices(mesh: &Mesh) -> Self {
+        let irradiance = mesh.vertices.iter().map(Vertex::irradiance).collect();
+        Self::new(mesh, &ElementLight::of_vertices(mesh), irradiance)
     }
 
     fn deviation(&self, mesh: &Mesh, id: ElementId) -> f64 {

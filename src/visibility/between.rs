@@ -39,6 +39,14 @@ impl Occluders {
         Between { parts: parts.into_iter().map(|(_, part)| part).collect(), tolerance, hides_all }
     }
 
+    /// The occluders of which a part stands between two polygons that face each other, as wholes.
+    pub fn polygons_between(&self, a: Facet<'_>, b: Facet<'_>) -> impl Iterator<Item = &[DVec3]> {
+        let hull = hull(a, b, self.tolerance);
+        let near = self.near(a, b).into_iter().map(|index| &self.polygons[index as usize]);
+        let stands = move |occluder: &&Occluder| inside(occluder, &hull, self.tolerance).is_some();
+        near.filter(stands).map(|occluder| occluder.corners.as_slice())
+    }
+
     /// True if nothing stands between two polygons that face each other.
     pub fn is_clear(&self, a: Facet<'_>, b: Facet<'_>) -> bool {
         let near = self.near(a, b);

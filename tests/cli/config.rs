@@ -9,7 +9,7 @@ fn a_file_gives_options_and_the_command_line_wins() {
         "radiosity.toml",
         "# coarse\nuniform = 0.3\nstop = \"5%\"\nhemicube-resolution = 32\njson = true\n\
          output = [\"a.glb\", \"b.ply\"]\nimage = \"a.png\"\nsize = \"40x30\"\n\
-         eye = [0.3, 0.3, -1]\ntarget = [0.3, 0.3, 0]\nfalse-colour = true\n",
+         eye = [0.3, 0.3, -1]\ntarget = [0.3, 0.3, 0]\nview = [\"radiosity\"]\nfinal-gather = true\n",
     );
     let scene = scene("cornell-box.glb");
     let solve = ["solve", scene.as_str(), "--config", "radiosity.toml"];
@@ -29,7 +29,8 @@ fn wrong_lines_are_named() {
     for (text, words) in [
         ("stop = 0.1\n\ntolerence = 0.1\n", ["radiosity.toml:3", "tolerence"]),
         ("stop = 0.1\nsize = \"wide\"\n", ["radiosity.toml:2", "WIDTHxHEIGHT"]),
-        ("wireframe = 1\n", ["radiosity.toml:1", "true or false"]),
+        ("final-gather = 1\n", ["radiosity.toml:1", "true or false"]),
+        ("view = \"nothing\"\n", ["radiosity.toml:1", "nothing"]),
         ("quality = \"best\"\n", ["radiosity.toml:1", "best"]),
         ("stop = 0.1\nstop = \n", ["radiosity.toml:2", ""]),
         ("config = \"other.toml\"\n", ["radiosity.toml:1", "unknown key"]),

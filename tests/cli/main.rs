@@ -6,6 +6,7 @@ mod form_factors;
 mod interrupt;
 mod solve;
 mod usage;
+mod views;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

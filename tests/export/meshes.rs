@@ -41,6 +41,7 @@ pub(crate) fn small_mesh() -> TriMesh {
             repeat: [true, false],
             ..Texture::default()
         }],
+        ..TriMesh::default()
     }
 }
 

@@ -51,18 +51,16 @@ fn all_solvers_leave_the_same_light() {
 }
 
 #[test]
-fn histories_tell_of_every_shot_of_both_rounds() {
+fn histories_tell_of_every_shot() {
     let scene = furnished();
     for method in METHODS {
         let settings = Settings { solver: method, ..coarse() };
         let solution = solved(&scene, &settings);
-        assert_eq!(solution.history.len(), 2, "{method:?}");
-        for steps in &solution.history {
-            assert!(steps.iter().enumerate().all(|(number, step)| step.shots == number));
-            assert!(steps.windows(2).all(|pair| pair[1].unshot <= pair[0].unshot + 1e-12));
-            let last = steps[steps.len() - 1];
-            assert!(last.unshot <= settings.stop && steps.len() > 10, "{method:?}: {last:?}");
-        }
+        let steps = &solution.history;
+        assert!(steps.iter().enumerate().all(|(number, step)| step.shots == number));
+        assert!(steps.windows(2).all(|pair| pair[1].unshot <= pair[0].unshot + 1e-12));
+        let last = steps[steps.len() - 1];
+        assert!(last.unshot <= settings.stop && steps.len() > 10, "{method:?}: {last:?}");
     }
 }
 
@@ -109,7 +107,7 @@ fn a_break_in_the_middle_of_a_sweep_loses_no_light() {
         });
         let solution = solution.unwrap();
         assert_eq!(solution.stop, Stop::Cancelled, "{method:?}");
-        assert_eq!(solution.history[0].len(), 31, "{method:?}");
+        assert_eq!(solution.history.len(), 31, "{method:?}");
         assert!(solution.energy.imbalance().abs() < 5e-3, "{method:?}");
     }
 }

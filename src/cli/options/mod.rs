@@ -9,4 +9,4 @@ mod view;
 pub(crate) use accuracy::AccuracyOptions;
 pub(crate) use report::ReportOptions;
 pub(crate) use scene::SceneOptions;
-pub(crate) use view::{CameraChoice, PictureOptions};
+pub(crate) use view::{CameraChoice, PictureOptions, display};

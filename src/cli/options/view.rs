@@ -1,10 +1,13 @@
-//! What a picture shows: size, camera, exposure and overlays.
+//! What a picture shows: size, camera, exposure and quantity.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 use radiosity::reconstruct::TriMesh;
 use radiosity::render::{
-    Display, FalseColour, Picture, Quantity, RenderOptions, automatic_camera, render,
+    Display, Picture, RenderOptions, Subject, View, automatic_camera, render_solved,
 };
 use radiosity::scene::Camera;
 use radiosity::tone::{Exposure, exposure_scale};
@@ -48,23 +51,55 @@ pub(crate) struct PictureOptions {
     #[arg(allow_hyphen_values = true)]
     pub(crate) exposure: Option<Exposure>,
 
-    /// Draw the mesh over the light (PNG only)
-    #[arg(long)]
-    wireframe: bool,
+    /// What to show; all but `light` with a legend below the picture (PNG)
+    ///
+    /// One for all pictures, or one for each in their order: --view light,error
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "light")]
+    view: Vec<Shown>,
 
-    /// Show radiosity as colours with a legend, in W/m² or lux (PNG only)
-    #[arg(long, alias = "false-color", value_name = "UNIT", value_enum, ignore_case = true)]
-    #[arg(num_args = 0..=1, default_missing_value = "W")]
-    false_colour: Option<LightUnit>,
+    /// Evaluate direct light anew at the samples of the picture, for shadows finer than the mesh
+    ///
+    /// Reflected light is that of the solution; smooth pixels get one evaluation, others sixteen. Ctrl-C interpolates the rest of the picture.
+    #[arg(long)]
+    final_gather: bool,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum LightUnit {
-    /// Radiosity, W/m²
-    #[value(name = "W")]
-    Watts,
-    /// Luminous exitance, lux
-    Lux,
+enum Shown {
+    /// The light, as the eye would see it
+    Light,
+    /// The light, with the mesh drawn over it
+    Wireframe,
+    /// Radiosity in false colours, W/m²
+    Radiosity,
+    /// Irradiance straight from emitters in false colours, W/m²
+    Direct,
+    /// Irradiance by reflected light in false colours, W/m²
+    Indirect,
+    /// Illuminance in false colours with lines of equal illuminance, lux (683 lm/W)
+    Illuminance,
+    /// How often patches were divided in a row
+    Level,
+    /// Why elements were divided
+    Reason,
+    /// Error of interpolation in the middle of elements, as a share of what is allowed
+    Error,
+}
+
+impl From<Shown> for View {
+    fn from(shown: Shown) -> Self {
+        match shown {
+            Shown::Light => Self::Light,
+            Shown::Wireframe => Self::Wireframe,
+            Shown::Radiosity => Self::Radiosity,
+            Shown::Direct => Self::Direct,
+            Shown::Indirect => Self::Indirect,
+            Shown::Illuminance => Self::Illuminance,
+            Shown::Level => Self::Level,
+            Shown::Reason => Self::Reason,
+            Shown::Error => Self::Error,
+        }
+    }
 }
 
 /// Which camera was asked for.
@@ -104,23 +139,57 @@ impl PictureOptions {
         }
     }
 
-    /// The picture of a mesh.
-    pub(crate) fn picture(&self, mesh: &TriMesh, camera: &Camera) -> Picture {
-        let Size { width, height } = self.size;
-        let wireframe = self.wireframe;
-        let options = RenderOptions { width, height, wireframe, ..RenderOptions::default() };
-        render(mesh, camera, &options)
+    /// Which view goes into which of the files.
+    pub(crate) fn views<'a>(&self, files: &'a [PathBuf]) -> Result<Vec<(View, Vec<&'a PathBuf>)>> {
+        let views = self.view.iter().copied().map(View::from);
+        if let [only] = *self.view {
+            return Ok(vec![(only.into(), files.iter().collect())]);
+        }
+        if self.view.len() != files.len() {
+            let (views, files) = (self.view.len(), files.len());
+            let message =
+                format!("{views} views for {files} pictures; give one, or one for each picture");
+            return Err(Error::Setting { name: "view", message });
+        }
+        Ok(views.zip(files).map(|(view, file)| (view, vec![file])).collect())
     }
 
-    /// How the picture of a mesh is to be shown.
-    pub(crate) fn display(&self, mesh: &TriMesh, exposure: Exposure) -> Display {
-        let quantity = match self.false_colour {
-            None => return Display::Exposed { scale: exposure_scale(mesh, exposure) },
-            Some(LightUnit::Watts) => Quantity::Radiosity,
-            Some(LightUnit::Lux) => Quantity::LuminousExitance,
-        };
-        Display::FalseColour(FalseColour { quantity, range: None })
+    /// Whether a solved file alone, without its scene, holds what is asked for.
+    pub(crate) fn check_for_file(&self) -> Result<()> {
+        const SOLVE: &str =
+            "which a solved GLB does not hold; `radiosity solve SCENE --image FILE.png`";
+        let refused = |name, message| Err(Error::Setting { name, message });
+        if self.final_gather {
+            let message = format!("evaluates light in the scene, {SOLVE} --final-gather does it");
+            return refused("final-gather", message);
+        }
+        if let Some(view) = self.view.iter().find(|&&view| View::from(view).needs_solution()) {
+            let name = view.to_possible_value();
+            let name = name.as_ref().map_or("", |value| value.get_name());
+            let message = format!("{name} shows the solution, {SOLVE} --view {name} does it");
+            return refused("view", message);
+        }
+        Ok(())
     }
+
+    /// One view of a mesh.
+    pub(crate) fn picture(
+        &self,
+        view: View,
+        subject: Subject<'_>,
+        camera: &Camera,
+        observe: impl FnMut(f64) -> ControlFlow<()>,
+    ) -> Picture {
+        let (Size { width, height }, final_gather) = (self.size, self.final_gather);
+        let options =
+            RenderOptions { view, width, height, final_gather, ..RenderOptions::default() };
+        render_solved(subject, camera, &options, observe)
+    }
+}
+
+/// How pictures of a mesh are to be shown.
+pub(crate) fn display(mesh: &TriMesh, exposure: Exposure) -> Display {
+    Display::exposed(exposure_scale(mesh, exposure))
 }
 
 fn looking(eye: DVec3, target: DVec3) -> Result<Camera> {

@@ -77,7 +77,7 @@ impl Corners {
         &self,
         face: &Face,
         corners: std::ops::Range<usize>,
-    ) -> impl Iterator<Item = Vec3> + Clone {
+    ) -> impl ExactSizeIterator<Item = Vec3> + Clone {
         let [a, b, w] = face.axes.map(|axis| &self.at[axis][corners.clone()]);
         let sign = face.sign;
         a.iter().zip(b).zip(w).map(

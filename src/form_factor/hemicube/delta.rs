@@ -17,9 +17,20 @@ pub struct DeltaFactors {
     /// For each row of the top and of one half face, the sums over its first 0, 1, …, `resolution`
     /// cells.
     sums: Vec<f32>,
-    /// For the same rows, c and d with which the factor of a cell at x = -1..1 along the row is
-    /// d / (x² + c)².
-    profiles: Vec<[f32; 2]>,
+    /// Of the top and of the half faces.
+    profiles: [Profile; 2],
+}
+
+/// What the factors of a face's cells are computed from: they are `scale / (x² + y² + 1)²`, all linear
+/// in the column or the row, as coefficients of 1 and of these.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Profile {
+    /// Position along a row, by the column.
+    pub(super) x: [f32; 2],
+    /// Position across the rows, by the row.
+    pub(super) y: [f32; 2],
+    /// By the row: the same everywhere on the top, with the height on the half faces.
+    pub(super) scale: [f32; 2],
 }
 
 impl DeltaFactors {
@@ -55,14 +66,15 @@ impl DeltaFactors {
             });
             std::iter::once(0.0).chain(running)
         });
-        let profile = |row: usize| {
-            let height = if row < resolution { at(row) - 1.0 } else { at(row - resolution) };
-            let cosine = if row < resolution { 1.0 } else { height };
-            [height * height + 1.0, cosine * step * step / (PI * total)].map(|value| value as f32)
+        let area = step * step / (PI * total);
+        let profile = |lowest: f64, scale: [f64; 2]| {
+            let [x, y] = [-1.0, lowest].map(|first| [first + 0.5 * step, step]);
+            let [x, y, scale] = [x, y, scale].map(|line| line.map(|value| value as f32));
+            Profile { x, y, scale }
         };
         Self {
             resolution,
-            profiles: (0..unlike).map(profile).collect(),
+            profiles: [profile(-1.0, [area, 0.0]), profile(0.0, [0.5 * step * area, step * area])],
             sums: sums.map(|sum| (sum / total) as f32).collect(),
             cells: cells.iter().map(|cell| (cell / total) as f32).collect(),
         }
@@ -85,10 +97,10 @@ impl DeltaFactors {
         &self.cells[first * self.resolution..(first + 1) * self.resolution]
     }
 
-    /// What the factors of the cells in a row of a face are computed from: c and d of d / (x² + c)².
+    /// What the factors of the cells of a face are computed from.
     #[inline(always)]
-    pub(super) fn profile(&self, face: usize, row: usize) -> [f32; 2] {
-        self.profiles[self.first_row(face) + row]
+    pub(super) fn profile(&self, face: usize) -> Profile {
+        self.profiles[usize::from(face != 0)]
     }
 
     /// Sums over the first 0, 1, …, `resolution` cells in a row of a face.
@@ -123,11 +135,12 @@ mod tests {
     fn profiles_are_what_the_factors_are_computed_from() {
         let delta = DeltaFactors::new(64);
         for (face, rows) in [64, 32, 32, 32, 32].into_iter().enumerate() {
+            let Profile { x, y, scale } = delta.profile(face);
             for row in 0..rows {
-                let [c, d] = delta.profile(face, row);
                 for (column, cell) in delta.row(face, row).iter().enumerate() {
-                    let x = (column as f32 + 0.5) / 32.0 - 1.0;
-                    let factor = d / (x * x + c).powi(2);
+                    let along = |[origin, step]: [f32; 2], at: usize| origin + step * at as f32;
+                    let (x, y) = (along(x, column), along(y, row));
+                    let factor = along(scale, row) / (x * x + y * y + 1.0).powi(2);
                     assert!((factor / cell - 1.0).abs() < 1e-5, "{factor} for {cell}");
                 }
             }

@@ -1,52 +1,76 @@
 //! Delta form factors by element: each cell's goes to the leaf where its ray ends.
+//!
+//! Patch by patch and face by face, the cells that see a patch are first laid out one after the other,
+//! then looked up in whole registers, and only then added to their leaves one by one: most runs of cells
+//! are too short to fill registers of their own.
 
-use glam::{DMat3, DVec3};
+use std::array;
+
+use glam::DVec3;
 use pulp::{Simd, WithSimd};
+use smallvec::SmallVec;
 
-use super::cells::NOTHING;
+use super::cells::{NOTHING, Run};
+use super::chart::{Chart, straighten};
 use super::clip::FACES;
+use super::delta::Profile;
 use super::element_map::{ElementMap, Grid};
 use super::raster::{LANES, count_up, rounded};
 use super::{Hemicube, Print};
 
-/// Number of no face.
-const NO_FACE: u16 = u16::MAX;
+/// Parts of a list of cells that are added to leaves in turns.
+const STREAMS: usize = 4;
 
 /// Delta form factors summed by element, reused from look to look.
 #[derive(Clone, Debug)]
 pub struct ElementSums<'a> {
     map: &'a ElementMap,
-    one: PatchSums,
+    spots: Spots,
+    /// Sums of the leaves of one patch, counted from its first; zero between patches.
+    sums: Vec<f32>,
     seen: Vec<(u32, f32)>,
 }
 
-/// Sums of the leaves of one patch, counted from its first.
-#[derive(Clone, Debug)]
-struct PatchSums {
-    /// Zero between patches.
-    sums: Vec<f32>,
-    /// Leaves that were seen; room for one more than there are.
-    touched: Vec<u32>,
+/// Cells of one face that see one patch; room for a register more than a face has.
+#[derive(Clone, Debug, Default)]
+struct Spots {
+    /// Their columns and rows, then the places in the coordinates of the patch's grid that they see.
+    places: [Vec<f32>; 2],
+    /// The cells of the grid that they see, then the patch's leaves, counted from its first.
+    leaves: Vec<u32>,
+    /// Their delta factors.
+    shares: Vec<f32>,
 }
 
-/// A patch's grid as a face sees it: its two coordinates times the reciprocal depth, and that depth, as
-/// coefficients of 1, the column and the row.
+/// A piece of a patch as a face of a hemicube sees it.
 #[derive(Clone, Copy, Debug)]
-struct Lens([[f32; 3]; 3]);
+struct Lens {
+    /// The two oblique coordinates of its chart over depth, and one over depth, as coefficients of 1, the
+    /// column and the row.
+    over_depth: [[f32; 3]; 3],
+    bend: [f32; 2],
+}
+
+/// What a register of cells sees: places in the coordinates of a grid, and its cells.
+#[derive(Clone, Copy)]
+struct Seen<S: Simd> {
+    places: [S::f32s; 2],
+    cells: S::u32s,
+}
 
 impl<'a> ElementSums<'a> {
     /// Sums that are all zero.
     pub fn new(map: &'a ElementMap) -> Self {
         let most = map.grids.iter().map(|grid| grid.leaves.len()).max().unwrap_or(0);
-        let one = PatchSums { sums: vec![0.0; most], touched: vec![0; most + 1] };
-        Self { map, one, seen: Vec::new() }
+        Self { map, spots: Spots::default(), sums: vec![0.0; most], seen: Vec::new() }
     }
 
     /// The leaves that a hemicube sees, patch by patch, by their numbers in [`ElementMap::leaves`], each
     /// with the sum of the delta factors of its cells.
     pub fn of(&mut self, hemicube: &Hemicube<'_>) -> &[(u32, f32)] {
-        hemicube.arch.dispatch(Summing { sums: self, hemicube });
-        &self.seen
+        self.spots.make_room(hemicube.delta.resolution());
+        let count = hemicube.arch.dispatch(Summing { sums: self, hemicube });
+        &self.seen[..count]
     }
 }
 
@@ -56,142 +80,268 @@ struct Summing<'s, 'a, 'h> {
 }
 
 impl WithSimd for Summing<'_, '_, '_> {
-    type Output = ();
+    /// How many leaves are seen.
+    type Output = usize;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self { sums: ElementSums { map, one, seen }, hemicube } = self;
-        seen.clear();
+    fn with_simd<S: Simd>(self, simd: S) -> usize {
+        let Self { sums: ElementSums { map, spots, sums, seen }, hemicube } = self;
+        let mut count = 0;
         for &patch in &hemicube.drawn {
             let Print { last, kept, .. } = hemicube.prints[patch as usize];
             if last == NOTHING {
                 continue;
             }
             let grid = &map.grids[patch as usize];
-            let first = grid.leaves.start as u32;
-            if grid.leaves.len() == 1 {
-                seen.push((first, kept));
-                continue;
+            // One more than there are: cells of leaves seen before write there as well.
+            let room = count + grid.leaves.len() + 1;
+            if seen.len() < room {
+                seen.resize(room, (0, 0.0));
             }
-            let count = one.add(simd, hemicube, (map, grid, last));
-            for &leaf in &one.touched[..count] {
-                let sum = std::mem::take(&mut one.sums[leaf as usize]);
-                seen.push((first + leaf, sum));
-            }
-        }
-    }
-}
-
-impl PatchSums {
-    /// Adds the cells of a patch, from its last run on, to the leaves they see; returns how many those are.
-    #[inline(always)]
-    #[allow(clippy::needless_range_loop, reason = "four lists in step")]
-    fn add<S: Simd>(
-        &mut self,
-        simd: S,
-        hemicube: &Hemicube<'_>,
-        (map, grid, last): (&ElementMap, &Grid, u32),
-    ) -> usize {
-        let resolution = hemicube.delta.resolution();
-        let (mut face, mut lens) = (NO_FACE, Lens([[0.0; 3]; 3]));
-        let mut count = 0;
-        let mut next = last;
-        while next != NOTHING {
-            let run = hemicube.runs[next as usize];
-            if run.face != face {
-                face = run.face;
-                lens = Lens::new(grid, (hemicube.eye, &hemicube.frame), (face.into(), resolution));
-            }
-            let profile = hemicube.delta.profile(face.into(), run.row.into());
-            let [from, to] = run.columns.map(usize::from);
-            for first in (from..to).step_by(S::F32_LANES) {
-                let (cells, [u, v]) = lens.cells(simd, grid, (run.row, first));
-                let shares = shares(simd, profile, (first, resolution));
-                let here = 0..S::F32_LANES.min(to - first);
-                if grid.is_regular {
-                    for k in here {
-                        count = self.put(cells[k], shares[k], count);
-                    }
-                } else {
-                    for k in here {
-                        let leaf = map.leaf(grid, cells[k], [u[k], v[k]]);
-                        count = self.put(leaf, shares[k], count);
-                    }
-                }
-            }
-            next = run.before;
+            let seen = &mut seen[count..room];
+            count += if grid.leaves.len() == 1 {
+                seen[0] = (grid.leaves.start as u32, kept);
+                1
+            } else {
+                let patch = (&**map, grid, last);
+                sum_patch(simd, (hemicube, patch), spots, (sums, seen))
+            };
         }
         count
     }
-
-    /// Adds a cell's factor to the leaf it sees; returns how many have been seen.
-    #[inline(always)]
-    fn put(&mut self, leaf: u32, share: f32, count: usize) -> usize {
-        let sum = &mut self.sums[leaf as usize];
-        let is_new = *sum == 0.0;
-        *sum += share;
-        self.touched[count] = leaf;
-        count + usize::from(is_new)
-    }
 }
 
-/// Cells of a patch's grid, and places in its coordinates.
-type Seen = ([u32; LANES], [[f32; LANES]; 2]);
+/// Lists the leaves of a patch that cells see, from its last run on, and their sums; returns how many.
+#[inline(always)]
+fn sum_patch<S: Simd>(
+    simd: S,
+    (hemicube, (map, grid, last)): (&Hemicube<'_>, (&ElementMap, &Grid, u32)),
+    spots: &mut Spots,
+    (sums, seen): (&mut [f32], &mut [(u32, f32)]),
+) -> usize {
+    let (mut next, mut found) = (last, 0);
+    while next != NOTHING {
+        let face = usize::from(hemicube.runs[next as usize].face);
+        let count;
+        (count, next) = spots.lay_out(simd, &hemicube.runs, next);
+        spots.look_up(simd, count, (hemicube, face), grid);
+        if !grid.is_regular {
+            spots.descend(count, map, grid);
+        }
+        found = spots.scatter(count, sums, (seen, found));
+    }
+    for (leaf, sum) in &mut seen[..found] {
+        *sum = std::mem::take(&mut sums[*leaf as usize]);
+        *leaf += grid.leaves.start as u32;
+    }
+    found
+}
+
+impl Spots {
+    fn make_room(&mut self, resolution: usize) {
+        let room = resolution * resolution + LANES;
+        if self.leaves.len() < room {
+            self.places.iter_mut().for_each(|list| list.resize(room, 0.0));
+            self.leaves.resize(room, 0);
+            self.shares.resize(room, 0.0);
+        }
+    }
+
+    /// Lists the cells of a run and of those of the same patch and face before it; returns how many those
+    /// are, and the run before them.
+    #[inline(always)]
+    fn lay_out<S: Simd>(&mut self, simd: S, runs: &[Run], last: u32) -> (usize, u32) {
+        let [columns, rows] = &mut self.places;
+        let face = runs[last as usize].face;
+        let (mut count, mut next) = (0, last);
+        while let Some(run) = runs.get(next as usize).filter(|run| run.face == face) {
+            let [from, to] = run.columns.map(usize::from);
+            let row = simd.splat_f32s(run.row.into());
+            // What registers hold beyond the run is written over by the next.
+            for first in (from..to).step_by(S::F32_LANES) {
+                let here = count + first - from..count + first - from + S::F32_LANES;
+                S::as_mut_simd_f32s(&mut columns[here.clone()]).0[0] = count_up(simd, first);
+                S::as_mut_simd_f32s(&mut rows[here]).0[0] = row;
+            }
+            count += to - from;
+            next = run.before;
+        }
+        (count, next)
+    }
+
+    /// Finds which cells of a patch's grid, and where, the first `count` of a face see, and their factors.
+    #[inline(always)]
+    fn look_up<S: Simd>(
+        &mut self,
+        simd: S,
+        count: usize,
+        (hemicube, face): (&Hemicube<'_>, usize),
+        grid: &Grid,
+    ) {
+        let lenses =
+            grid.pieces.iter().map(|piece| Lens::new(hemicube, face, (piece, grid.normal)));
+        let lenses: SmallVec<[Lens; 8]> = lenses.collect();
+        let profile = hemicube.delta.profile(face);
+        let [columns, rows] = self.places.each_mut().map(|list| S::as_mut_simd_f32s(list).0);
+        let leaves = S::as_mut_simd_u32s(&mut self.leaves).0;
+        let shares = S::as_mut_simd_f32s(&mut self.shares).0;
+        let spots = columns.iter_mut().zip(rows).zip(leaves.iter_mut().zip(shares));
+        for ((column, row), (leaf, share)) in spots.take(count.div_ceil(S::F32_LANES)) {
+            let spot = [*column, *row];
+            let Seen::<S> { places, cells } = see(simd, &lenses, grid.size, spot);
+            *share = factors(simd, profile, spot);
+            [*column, *row] = places;
+            *leaf = cells;
+        }
+    }
+
+    /// Replaces the cells of a grid whose cells are not the leaves by the leaves.
+    #[inline(always)]
+    fn descend(&mut self, count: usize, map: &ElementMap, grid: &Grid) {
+        let places = self.places[0].iter().zip(&self.places[1]);
+        for (leaf, (&u, &v)) in self.leaves[..count].iter_mut().zip(places) {
+            *leaf = map.leaf(grid, *leaf, [u, v]);
+        }
+    }
+
+    /// Adds the factors of the first `count` cells to the leaves they see, and lists those seen for the
+    /// first time after the `found` that were before; returns how many those are then.
+    #[inline(always)]
+    fn scatter(
+        &self,
+        count: usize,
+        sums: &mut [f32],
+        (seen, mut found): (&mut [(u32, f32)], usize),
+    ) -> usize {
+        let mut put = |leaf: u32, share: f32| {
+            let sum = &mut sums[leaf as usize];
+            // Without a branch: nobody could foretell it.
+            seen[found].0 = leaf;
+            found += usize::from(sum.to_bits() == 0);
+            *sum += share;
+        };
+        // Neighbours often see the same leaf, and a sum is slow to read again just after it was written.
+        let length = count / STREAMS;
+        let stream = |k: usize| k * length..(k + 1) * length;
+        let leaves: [&[u32]; STREAMS] = array::from_fn(|k| &self.leaves[stream(k)]);
+        let shares: [&[f32]; STREAMS] = array::from_fn(|k| &self.shares[stream(k)]);
+        for spot in 0..length {
+            for (leaves, shares) in leaves.iter().zip(shares) {
+                put(leaves[spot], shares[spot]);
+            }
+        }
+        for spot in STREAMS * length..count {
+            put(self.leaves[spot], self.shares[spot]);
+        }
+        found
+    }
+}
 
 impl Lens {
     #[inline(always)]
-    fn new(grid: &Grid, (eye, frame): (DVec3, &DMat3), (face, resolution): (usize, usize)) -> Self {
-        let offset = eye - grid.origin;
-        let plane = *frame * grid.normal / -offset.dot(grid.normal);
-        let along = |axis: DVec3| *frame * axis + plane * axis.dot(offset);
-        let directions = [along(grid.axes[0]), along(grid.axes[1]), plane];
-        Self(directions.map(|n| FACES[face].by_cell(n.as_vec3(), resolution)))
+    fn new(
+        Hemicube { eye, frame, delta, .. }: &Hemicube<'_>,
+        face: usize,
+        (piece, normal): (&Chart<DVec3>, DVec3),
+    ) -> Self {
+        let offset = *eye - piece.origin;
+        let plane = *frame * (normal * (-1.0 / offset.dot(normal)));
+        let [u, v] = piece.axes.map(
+            #[inline(always)]
+            |axis| *frame * axis + plane * axis.dot(offset),
+        );
+        let by_cell = |n: DVec3| FACES[face].by_cell(n.as_vec3(), delta.resolution());
+        Self { over_depth: [u, v, plane].map(by_cell), bend: piece.bend }
     }
 
-    /// What the cells of a hemicube from a row's column on see.
+    /// Places that cells see, in the coordinates of the chart.
     #[inline(always)]
-    fn cells<S: Simd>(&self, simd: S, grid: &Grid, (row, first): (u16, usize)) -> Seen {
-        let column = count_up(simd, first);
-        let row = f32::from(row);
-        let [u, v, w] = self.0.map(
+    fn places<S: Simd>(&self, simd: S, spot: [S::f32s; 2]) -> [S::f32s; 2] {
+        let [u, v, w] = self.over_depth.map(
             #[inline(always)]
-            |[origin, by_column, by_row]| {
-                let start = simd.splat_f32s(origin + by_row * row);
-                simd.add_f32s(start, simd.mul_f32s(simd.splat_f32s(by_column), column))
-            },
+            |coefficients| linear(simd, coefficients, spot),
         );
-        let (mut cells, mut places) = ([0; LANES], [[0.0; LANES]; 2]);
         let depth = simd.div_f32s(simd.splat_f32s(1.0), w);
-        let at = [simd.mul_f32s(u, depth), simd.mul_f32s(v, depth)];
-        let [i, j] = [0, 1].map(
-            #[inline(always)]
-            |k| {
-                // The nearest whole number to half a cell back is the cell's.
-                let back = simd.sub_f32s(at[k], simd.splat_f32s(0.5));
-                rounded(simd, back, (grid.size[k] - 1) as f32)
-            },
-        );
-        let whole = simd.mul_u32s(j, simd.splat_u32s(grid.size[0]));
-        S::as_mut_simd_u32s(&mut cells).0[0] = simd.add_u32s(whole, i);
-        for (places, at) in places.iter_mut().zip(at) {
-            S::as_mut_simd_f32s(places).0[0] = at;
-        }
-        (cells, places)
+        let places = [simd.mul_f32s(u, depth), simd.mul_f32s(v, depth)];
+        if self.bend == [0.0; 2] { places } else { straighten(simd, self.bend, places) }
     }
 }
 
-/// Delta factors of the cells of a row from a column on. Computed, since patches take rows in any order:
-/// a table of all would be read from far away.
+/// What cells see of a patch: of its pieces, each sees that whose middle is nearest.
 #[inline(always)]
-fn shares<S: Simd>(simd: S, [c, d]: [f32; 2], (first, resolution): (usize, usize)) -> [f32; LANES] {
-    let step = 2.0 / resolution as f32;
-    let [c, d, step, start] = [c, d, step, 0.5 * step - 1.0].map(
+fn see<S: Simd>(simd: S, lenses: &[Lens], size: [u32; 2], spot: [S::f32s; 2]) -> Seen<S> {
+    let width = size[0] * lenses.len() as u32;
+    let mut seen = Seen { places: spot, cells: simd.splat_u32s(0) };
+    let mut nearest = simd.splat_f32s(f32::INFINITY);
+    for (lens, first) in lenses.iter().zip((0..width).step_by(size[0] as usize)) {
+        let places = lens.places(simd, spot);
+        let here = on_grid(simd, places, size, (first, width));
+        if lenses.len() == 1 {
+            return here;
+        }
+        let distance = from_middle(simd, places);
+        let nearer = simd.less_than_f32s(distance, nearest);
+        nearest = simd.select_f32s(nearer, distance, nearest);
+        seen.cells = simd.select_u32s(nearer, here.cells, seen.cells);
+        for (seen, here) in seen.places.iter_mut().zip(here.places) {
+            *seen = simd.select_f32s(nearer, here, *seen);
+        }
+    }
+    seen
+}
+
+/// Places of a chart on its piece of a grid, which begins at the column `first` of `width`.
+#[inline(always)]
+fn on_grid<S: Simd>(
+    simd: S,
+    places: [S::f32s; 2],
+    size: [u32; 2],
+    (first, width): (u32, u32),
+) -> Seen<S> {
+    let [s, t] = [0, 1].map(
+        #[inline(always)]
+        |k| simd.mul_f32s(places[k], simd.splat_f32s(size[k] as f32)),
+    );
+    let [i, j] = [(s, size[0]), (t, size[1])].map(
+        #[inline(always)]
+        // The nearest whole number to half a cell back is the cell's.
+        |(at, size)| rounded(simd, simd.sub_f32s(at, simd.splat_f32s(0.5)), (size - 1) as f32),
+    );
+    let row = simd.add_u32s(simd.mul_u32s(j, simd.splat_u32s(width)), simd.splat_u32s(first));
+    let s = simd.add_f32s(s, simd.splat_f32s(first as f32));
+    Seen { places: [s, t], cells: simd.add_u32s(row, i) }
+}
+
+/// The larger of the distances from a chart's middle along its coordinates.
+#[inline(always)]
+fn from_middle<S: Simd>(simd: S, places: [S::f32s; 2]) -> S::f32s {
+    let half = simd.splat_f32s(0.5);
+    let [s, t] = places.map(
+        #[inline(always)]
+        |at| simd.max_f32s(simd.sub_f32s(at, half), simd.sub_f32s(half, at)),
+    );
+    simd.max_f32s(s, t)
+}
+
+/// A linear function, by its coefficients of 1, the column and the row.
+#[inline(always)]
+fn linear<S: Simd>(simd: S, coefficients: [f32; 3], [column, row]: [S::f32s; 2]) -> S::f32s {
+    let [origin, by_column, by_row] = coefficients.map(
         #[inline(always)]
         |x| simd.splat_f32s(x),
     );
-    let x = simd.add_f32s(start, simd.mul_f32s(step, count_up(simd, first)));
-    let square = simd.add_f32s(simd.mul_f32s(x, x), c);
-    let mut shares = [0.0; LANES];
-    S::as_mut_simd_f32s(&mut shares).0[0] = simd.div_f32s(d, simd.mul_f32s(square, square));
-    shares
+    let start = simd.add_f32s(origin, simd.mul_f32s(by_row, row));
+    simd.add_f32s(start, simd.mul_f32s(by_column, column))
+}
+
+/// Delta factors of cells. Computed: a table of all would be read from far away.
+#[inline(always)]
+fn factors<S: Simd>(simd: S, profile: Profile, [column, row]: [S::f32s; 2]) -> S::f32s {
+    let along = |[origin, step]: [f32; 2], at| {
+        simd.add_f32s(simd.splat_f32s(origin), simd.mul_f32s(simd.splat_f32s(step), at))
+    };
+    let (x, y) = (along(profile.x, column), along(profile.y, row));
+    let squares = simd.add_f32s(simd.mul_f32s(x, x), simd.mul_f32s(y, y));
+    let square = simd.add_f32s(squares, simd.splat_f32s(1.0));
+    simd.div_f32s(along(profile.scale, row), simd.mul_f32s(square, square))
 }

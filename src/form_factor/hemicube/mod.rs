@@ -10,6 +10,7 @@
 //! widths and compiled twice; which of both runs is found out when it runs, and changes no bit.
 
 mod cells;
+mod chart;
 mod clip;
 mod delta;
 mod element_map;

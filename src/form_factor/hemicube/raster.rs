@@ -26,7 +26,7 @@ pub(super) struct Footprint<'a> {
 
 /// An edge of a polygon, in cells, and the rows from the first to before the second whose centres it
 /// crosses.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Edge {
     start: [f32; 2],
     slope: f32,
@@ -71,32 +71,36 @@ impl Raster {
     }
 }
 
-/// Lists the edges of a polygon that a face sees whole; returns the rows they cross.
+/// Lists the edges of a polygon that a face sees whole and that cross a row's centre; returns the rows
+/// they cross.
 #[inline(always)]
 fn trace(
-    polygon: impl Iterator<Item = Vec3>,
+    polygon: impl ExactSizeIterator<Item = Vec3>,
     (face, resolution): (&Face, usize),
     edges: &mut SmallVec<[Edge; 16]>,
 ) -> [i32; 2] {
     let most = face.rows(resolution) as i32;
     let half = resolution as f32 / 2.0;
-    edges.clear();
+    edges.resize(polygon.len(), Edge::default());
     let mut rows = [i32::MAX, 0];
     let mut corners = polygon.map(
         #[inline(always)]
         |corner| corner_at(face, corner, half, most),
     );
     let Some(start) = corners.next() else { return [0, 0] };
-    let mut from = start;
+    let (mut from, mut count) = (start, 0);
     for to in corners.chain(std::iter::once(start)) {
-        let (lower, upper) = if from.0[1] < to.0[1] { (from, to) } else { (to, from) };
-        if lower.1 < upper.1 {
-            let slope = (upper.0[0] - lower.0[0]) / (upper.0[1] - lower.0[1]);
-            edges.push(Edge { start: lower.0, slope, rows: [lower.1, upper.1] });
-        }
+        // Edges are as good as random: without branches, nothing is foretold wrongly.
+        let ends = [from, to];
+        let lower = usize::from(from.0[1] >= to.0[1]);
+        let [lower, upper] = [ends[lower], ends[1 - lower]];
+        let slope = (upper.0[0] - lower.0[0]) / (upper.0[1] - lower.0[1]);
+        edges[count] = Edge { start: lower.0, slope, rows: [lower.1, upper.1] };
+        count += usize::from(lower.1 < upper.1);
         rows = [rows[0].min(to.1), rows[1].max(to.1)];
         from = to;
     }
+    edges.truncate(count);
     rows
 }
 
@@ -179,8 +183,8 @@ pub(super) fn rounded<S: Simd>(simd: S, values: S::f32s, most: f32) -> S::u32s {
         #[inline(always)]
         |x| simd.splat_f32s(x),
     );
-    let value = simd.select_f32s(simd.greater_than_f32s(values, zero), values, zero);
-    let value = simd.select_f32s(simd.less_than_f32s(value, most), value, most);
+    // Of a number and none, the number is the larger on all processors.
+    let value = simd.min_f32s(simd.max_f32s(values, zero), most);
     let value = simd.transmute_u32s_f32s(simd.add_f32s(value, whole));
     simd.sub_u32s(value, simd.transmute_u32s_f32s(whole))
 }

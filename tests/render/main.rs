@@ -1,14 +1,17 @@
 //! Pictures show what the mesh carries, whoever computes them.
 
+#[path = "../common/mod.rs"]
+mod common;
+mod final_gather;
+mod views;
+
 use std::f64::consts::PI;
 use std::path::Path;
 
 use glam::DVec3;
 use radiosity::colour::{Rgb, luminance};
 use radiosity::reconstruct::Part;
-use radiosity::render::{
-    Display, FalseColour, Picture, RenderOptions, automatic_camera, render, save,
-};
+use radiosity::render::{Display, Picture, RenderOptions, View, automatic_camera, render, save};
 use radiosity::scene::{Camera, Texture};
 use radiosity::{Error, TriMesh};
 
@@ -83,7 +86,7 @@ fn shown(picture: &Picture, display: &Display) -> image::RgbImage {
     image::open(path).unwrap().into_rgb8()
 }
 
-const EXPOSED: Display = Display::Exposed { scale: 1.0 };
+const EXPOSED: Display = Display { scale: 1.0, range: None };
 
 #[test]
 fn radiosity_pi_is_radiance_one_and_the_rest_is_background() {
@@ -92,7 +95,7 @@ fn radiosity_pi_is_radiance_one_and_the_rest_is_background() {
     for y in 0..20 {
         for x in 0..40 {
             let expected = if (10..30).contains(&x) { 1.0 } else { 0.25 };
-            let radiance = picture.radiance[y * 40 + x];
+            let radiance = picture.values[y * 40 + x];
             assert!((radiance - expected).abs().max_element() < 1e-6, "{x} {y}: {radiance}");
         }
     }
@@ -102,7 +105,7 @@ fn radiosity_pi_is_radiance_one_and_the_rest_is_background() {
 fn an_edge_through_a_pixel_is_graded_by_area() {
     let options = RenderOptions { samples: 4, ..small(33, 11) };
     let picture = render(&square(1, PI), &camera_in_front(5.0), &options);
-    let row: f32 = picture.radiance[5 * 33..6 * 33].iter().map(|radiance| radiance.x).sum();
+    let row: f32 = picture.values[5 * 33..6 * 33].iter().map(|radiance| radiance.x).sum();
     assert!((row - 11.0).abs() < 0.26, "{row}");
 }
 
@@ -137,7 +140,7 @@ fn one_and_four_threads_agree_bit_for_bit() {
     let with = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let options = RenderOptions { wireframe: true, ..small(40, 30) };
+            let options = RenderOptions { view: View::Wireframe, ..small(40, 30) };
             render(&mesh, &automatic_camera(&mesh, 4.0 / 3.0), &options)
         })
     };
@@ -157,7 +160,7 @@ fn a_texture_replaces_its_mean() {
     });
     mesh.parts[0].texture = Some(0);
     let picture = render(&mesh, &camera_in_front(5.0), &small(16, 16));
-    let row = &picture.radiance[8 * 16..9 * 16];
+    let row = &picture.values[8 * 16..9 * 16];
     assert!(row[1].x < 1e-6 && (row[14].x - 1.0).abs() < 1e-6, "{row:?}");
 }
 
@@ -194,15 +197,16 @@ fn a_mesh_of_nothing_has_a_camera_and_a_picture() {
     let camera = automatic_camera(&mesh, f64::NAN);
     assert!(camera.eye.is_finite() && camera.eye != camera.target);
     let picture = render(&mesh, &camera, &small(200, 120));
-    shown(&picture, &Display::FalseColour(FalseColour::default()));
+    shown(&picture, &EXPOSED);
 }
 
 #[test]
 fn mesh_lines_are_dark_on_bright_surfaces_and_bright_on_dark_ones() {
     for (radiosity, darker) in [(0.9, true), (0.0, false)] {
-        let options = RenderOptions { wireframe: true, ..small(64, 64) };
+        let options = RenderOptions { view: View::Wireframe, ..small(64, 64) };
         let with_lines = render(&square(2, radiosity), &camera_in_front(5.0), &options);
-        let without = Picture { lines: Vec::new(), ..with_lines.clone() };
+        let mut without = with_lines.clone();
+        without.lines.clear();
         let (lines, plain) = (shown(&with_lines, &EXPOSED), shown(&without, &EXPOSED));
         let middle = |image: &image::RgbImage| image.get_pixel(32, 16).0[0];
         assert_eq!(middle(&lines) < middle(&plain), darker);
@@ -214,7 +218,7 @@ fn mesh_lines_are_dark_on_bright_surfaces_and_bright_on_dark_ones() {
 #[test]
 fn lines_are_about_a_pixel_wide_at_any_distance() {
     for pixels in [64, 256] {
-        let options = RenderOptions { wireframe: true, ..small(pixels, pixels) };
+        let options = RenderOptions { view: View::Wireframe, ..small(pixels, pixels) };
         let picture = render(&square(2, 1.0), &camera_in_front(5.0), &options);
         // Between the grid's horizontal lines, across its vertical one in the middle.
         let first = (pixels * pixels / 4 + pixels * 3 / 8) as usize;
@@ -232,7 +236,7 @@ fn radiance_survives_hdr_and_exr_files() {
         save(&picture, &path, &EXPOSED).unwrap();
         let read = image::open(&path).unwrap().into_rgb32f();
         assert_eq!(read.dimensions(), (24, 12));
-        for (pixel, radiance) in read.pixels().zip(&picture.radiance) {
+        for (pixel, radiance) in read.pixels().zip(&picture.values) {
             assert!((pixel.0[0] - radiance.x).abs() <= tolerance * radiance.x, "{name}");
         }
     }
@@ -270,13 +274,15 @@ fn false_colours_brighten_with_radiosity_above_a_legend() {
     for (value, position) in mesh.radiosity.iter_mut().zip(&mesh.positions) {
         *value = Rgb::splat(2.0 + position.x);
     }
-    let picture = render(&mesh, &camera_in_front(5.0), &small(200, 200));
-    let image = shown(&picture, &Display::FalseColour(FalseColour::default()));
+    let options = RenderOptions { view: View::Radiosity, ..small(200, 200) };
+    let picture = render(&mesh, &camera_in_front(5.0), &options);
+    let image = shown(&picture, &EXPOSED);
+    assert!(image.width() == 200 && image.height() > 200, "the legend is below the picture");
     let at = |x, y| luminance(Rgb::from_array(image.get_pixel(x, y).0.map(f64::from)));
     for x in (10..180).step_by(10) {
         assert!(at(x, 50) < at(x + 10, 50), "{x}");
     }
-    let heading = 138..156;
+    let heading = 200..222;
     let inked = (0..200).filter(|&x| heading.clone().any(|y| at(x, y) > 150.0)).count();
     assert!(inked > 50, "{inked} columns with letters");
 }

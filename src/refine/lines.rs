@@ -1,0 +1,213 @@
+//! Where to cut an element along a discontinuity line.
+
+use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
+
+use super::strength;
+use crate::direct::Lamps;
+use crate::mesh::{Crossing, ElementId, Mesh, Patch, Split};
+use crate::surface::polygon::{self, Convex, Line, Segment};
+use crate::surface::{Plane, Surfaces};
+use crate::visibility::{Facet, Occluders};
+
+/// How far from a line derivatives are taken, as a share of the patch's size.
+const STEP: f64 = 1.0 / 64.0;
+
+/// Both parts of an element keep at least this share of it.
+const LEAST_PART: f64 = 0.06;
+
+/// A line must run through this share of the cut.
+const LEAST_SHARE: f64 = 0.6;
+
+/// Ends of a cut nearer to a corner than this share of an edge are moved there.
+const SNAP: f64 = 0.15;
+
+/// Cuts end at multiples of this share of an edge, so that those of neighbours meet or keep apart.
+const NOTCHES: f64 = 256.0;
+
+/// Sine of the least angle between a cut and an edge: 15°.
+const LEAST_SINE: f64 = 0.26;
+
+/// A discontinuity line on a patch, and what it carries.
+#[derive(Clone, Copy, Debug)]
+pub struct Discontinuity {
+    segment: Segment,
+    /// Jump of the derivative of radiosity across the line, W/m³.
+    kink: f64,
+    /// Jump of the second derivative, W/m⁴.
+    bend: f64,
+}
+
+/// A cut through a convex polygon.
+struct Chord {
+    ends: [Crossing; 2],
+    length: f64,
+    /// The smaller part's share of the area.
+    least_part: f64,
+}
+
+/// The discontinuity lines of a patch, as far as they carry anything, by direct light.
+pub fn discontinuities(
+    (surfaces, patch): (&Surfaces, &Patch),
+    lamps: &Lamps,
+    occluders: &Occluders,
+) -> Vec<Discontinuity> {
+    let plane = &surfaces.list[patch.surface as usize].plane;
+    let outline: Convex = patch.corners.iter().map(|&p| plane.flatten(p)).collect();
+    let borders = borders(&outline);
+    let lines = lamps.lines(occluders, Facet::new(&patch.corners, patch.normal));
+    let light = |place: DVec2| {
+        let Plane { normal, .. } = *plane;
+        strength(patch.reflectance * lamps.shine(occluders, plane.lift(place), normal).irradiance)
+    };
+    let flat = |line: [DVec3; 2]| line.map(|p| plane.flatten(p));
+    let inside =
+        lines.into_iter().filter_map(|line| clipped(flat(line), &borders, surfaces.tolerance));
+    let step = STEP * patch.area.sqrt();
+    let weighed = joined(inside, surfaces.tolerance).into_iter();
+    let weighed = weighed.filter_map(|segment| weigh(segment, &borders, step, light));
+    weighed.filter(|line| line.kink > 0.0 || line.bend > 0.0).collect()
+}
+
+/// What a line carries, from light at five places across its middle; nothing is known where these are
+/// not all inside the borders.
+fn weigh(
+    segment: Segment,
+    borders: &[Line],
+    step: f64,
+    light: impl Fn(DVec2) -> f64,
+) -> Option<Discontinuity> {
+    let middle = (segment[0] + segment[1]) * 0.5;
+    let across = (segment[1] - segment[0]).normalize_or_zero().perp() * step;
+    let places = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| middle + across * k);
+    let is_inside = |place: &DVec2| borders.iter().all(|line| line.side(*place, 0.0) > 0.0);
+    if !places.iter().all(is_inside) {
+        return None;
+    }
+    let [a, b, c, d, e] = places.map(light);
+    // Derivatives on each side, exact for parabolas.
+    let slopes = [(3.0 * c - 4.0 * b + a) / 2.0, (4.0 * d - 3.0 * c - e) / 2.0];
+    let bends = [c - 2.0 * b + a, e - 2.0 * d + c];
+    Some(Discontinuity {
+        segment,
+        kink: (slopes[1] - slopes[0]).abs() / step,
+        bend: (bends[1] - bends[0]).abs() / (step * step),
+    })
+}
+
+/// Segments with those that overlap on one line joined.
+fn joined(segments: impl Iterator<Item = Segment>, tolerance: f64) -> Vec<Segment> {
+    let mut all: Vec<Segment> = Vec::new();
+    for mut new in segments {
+        all.retain(|&old| match union(new, old, tolerance) {
+            Some(union) => {
+                new = union;
+                false
+            }
+            None => true,
+        });
+        all.push(new);
+    }
+    all
+}
+
+/// Two segments as one, if they overlap on one line.
+fn union(a: Segment, b: Segment, tolerance: f64) -> Option<Segment> {
+    let line = Line::through(a);
+    if b.iter().any(|&p| line.side(p, tolerance) != 0.0) {
+        return None;
+    }
+    let along = (a[1] - a[0]).normalize_or_zero();
+    let [from, to] = b.map(|p| (p - a[0]).dot(along));
+    let ([low, high], length) = ([from.min(to), from.max(to)], a[0].distance(a[1]));
+    let overlap = low <= length + tolerance && high >= -tolerance;
+    overlap.then(|| [a[0] + along * low.min(0.0), a[0] + along * high.max(length)])
+}
+
+/// The cut of an element along the line that carries most, if any carries more than `allowed`, W/m².
+pub fn cut(
+    (mesh, element): (&Mesh, ElementId),
+    lines: &[Discontinuity],
+    allowed: f64,
+    tolerance: f64,
+) -> Option<Split> {
+    let outline = mesh.outline(element);
+    let (borders, area) = (borders(&outline), polygon::area(&outline));
+    let carried = |line: &Discontinuity| {
+        let [from, to] = clipped(line.segment, &borders, tolerance)?;
+        let chord = Chord::new(&outline, &Line::through(line.segment), tolerance)?;
+        let share = from.distance(to) / chord.length;
+        if share < LEAST_SHARE || chord.least_part < LEAST_PART {
+            return None;
+        }
+        // What interpolation across an element this wide makes of the jumps in its middle.
+        let width = area / chord.length;
+        let error = (line.kink * width / 4.0).max(line.bend * width * width / 16.0);
+        Some((error * share, chord.ends))
+    };
+    let most = lines.iter().filter_map(carried).max_by(|(a, _), (b, _)| a.total_cmp(b));
+    most.filter(|(error, _)| *error > allowed).map(|(_, ends)| Split::Along(ends))
+}
+
+impl Chord {
+    /// Along a line, its ends moved to corners that are near; none where its parts would be slivers.
+    fn new(outline: &Convex, line: &Line, tolerance: f64) -> Option<Self> {
+        let n = outline.len();
+        let mut crossings: SmallVec<[Crossing; 4]> = SmallVec::new();
+        for edge in 0..n {
+            let [from, to] = [edge, (edge + 1) % n].map(|k| line.side(outline[k], tolerance));
+            let share = if from == 0.0 {
+                0.0
+            } else if from * to < 0.0 {
+                from / (from - to)
+            } else {
+                continue;
+            };
+            let crossing = snapped(Crossing { edge, share }, n);
+            if !crossings.contains(&crossing) {
+                crossings.push(crossing);
+            }
+        }
+        let &[from, to] = crossings.as_slice() else { return None };
+        let at = |c: Crossing| outline[c.edge].lerp(outline[(c.edge + 1) % n], c.share);
+        let along = at(to) - at(from);
+        if [from, to].iter().any(|&end| sine(outline, end, along) < LEAST_SINE) {
+            return None;
+        }
+        let parts = Line::through([at(from), at(to)]).split(outline, tolerance);
+        let [a, b] = parts.map(|part| part.map_or(0.0, |part| polygon::area(&part)));
+        Some(Self { ends: [from, to], length: along.length(), least_part: a.min(b) / (a + b) })
+    }
+}
+
+/// The nearest place on an edge at which cuts may end, of a polygon of `n` corners.
+fn snapped(Crossing { edge, share }: Crossing, n: usize) -> Crossing {
+    match share {
+        share if share < SNAP => Crossing { edge, share: 0.0 },
+        share if share > 1.0 - SNAP => Crossing { edge: (edge + 1) % n, share: 0.0 },
+        share => Crossing { edge, share: (share * NOTCHES).round() / NOTCHES },
+    }
+}
+
+/// Sine of the smallest angle between a cut from or to a place on the border, and the edges there.
+fn sine(outline: &Convex, end: Crossing, along: DVec2) -> f64 {
+    let n = outline.len();
+    let angle = |edge: usize| {
+        let side = outline[(edge + 1) % n] - outline[edge % n];
+        side.normalize_or_zero().perp_dot(along.normalize_or_zero()).abs()
+    };
+    let here = angle(end.edge);
+    if end.share == 0.0 { here.min(angle(end.edge + n - 1)) } else { here }
+}
+
+/// The part of a segment to the left of all lines.
+fn clipped(segment: Segment, borders: &[Line], tolerance: f64) -> Option<Segment> {
+    let inside =
+        borders.iter().try_fold(segment, |part, line| line.split_segment(part, tolerance)[0]);
+    inside.filter(|[a, b]| a.distance(*b) > tolerance)
+}
+
+/// Lines along the edges of a convex polygon, which is to their left.
+fn borders(outline: &Convex) -> SmallVec<[Line; 8]> {
+    polygon::edges(outline).map(Line::through).collect()
+}

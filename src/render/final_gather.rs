@@ -1,0 +1,40 @@
+//! Direct light at the places that a picture shows, not only at vertices.
+
+use glam::DVec3;
+
+use crate::colour::Rgb;
+use crate::direct::Lamps;
+use crate::mesh::{ElementId, Mesh};
+use crate::surface::Surfaces;
+use crate::visibility::Occluders;
+
+/// Evaluates direct light anywhere, as the solver does at vertices.
+#[derive(Debug)]
+pub(super) struct FinalGather<'a> {
+    surfaces: &'a Surfaces,
+    mesh: &'a Mesh,
+    lamps: Lamps,
+    occluders: Occluders,
+}
+
+impl<'a> FinalGather<'a> {
+    pub(super) fn new(surfaces: &'a Surfaces, mesh: &'a Mesh) -> Self {
+        let (lamps, occluders) = (Lamps::new(surfaces, mesh), Occluders::new(surfaces));
+        Self { surfaces, mesh, lamps, occluders }
+    }
+
+    /// Irradiance straight from emitters, W/m², at a place on a leaf.
+    ///
+    /// Seen, like a vertex, from a hair inside the patch, so that what stands along its border neither
+    /// hides it nor leaks light to it.
+    pub(super) fn direct(&self, leaf: ElementId, place: DVec3) -> Rgb {
+        let plane = &self.surfaces.list[self.mesh.surface_of(leaf)].plane;
+        let site = self.mesh.site(self.mesh[leaf].patch, plane.flatten(place));
+        self.lamps.shine(&self.occluders, site, plane.normal).irradiance
+    }
+
+    /// Diffuse reflectance of a leaf, without the texture's part.
+    pub(super) fn reflectance(&self, leaf: ElementId) -> Rgb {
+        self.surfaces.list[self.mesh.surface_of(leaf)].reflectance
+    }
+}

@@ -1,0 +1,86 @@
+//! What is known of leaves: their level, why they were made, and how good they are.
+
+use super::colours::{self, Swatch};
+use super::shade::Solved;
+use crate::colour::Rgb;
+use crate::mesh::{ElementId, Mesh, Reason, Vertex};
+use crate::refine::{Oracle, strength};
+
+/// Names of what makes leaves, in the order of their colours.
+const REASONS: [&str; 5] = ["whole patch", "uniform mesh", "gradient", "shadow edge", "contact"];
+
+/// Colours of elements by their level, linear, and what they stand for.
+pub(super) fn levels(mesh: &Mesh) -> (Vec<Rgb>, Vec<Swatch>) {
+    let deepest = mesh.leaves().map(|leaf| mesh[leaf].level).max().unwrap_or(0);
+    let names = (0..=deepest).map(|level| level.to_string());
+    let by_element = mesh.elements.iter().map(|element| element.level as usize);
+    coloured(by_element, names.zip(colours::steps(deepest as usize + 1)).collect())
+}
+
+/// Colours of elements by why their parents were divided, linear, and what they stand for.
+pub(super) fn reasons(mesh: &Mesh) -> (Vec<Rgb>, Vec<Swatch>) {
+    let mut by_element = vec![0; mesh.elements.len()];
+    for element in &mesh.elements {
+        for child in &element.children {
+            by_element[child.index()] = match element.reason {
+                None => 0,
+                Some(Reason::Uniform) => 1,
+                Some(Reason::Gradient) => 2,
+                Some(Reason::ShadowEdge) => 3,
+                Some(Reason::Contact) => 4,
+            };
+        }
+    }
+    let names = REASONS.iter().map(|&name| name.to_owned());
+    coloured(by_element.into_iter(), names.zip(colours::CATEGORIES).collect())
+}
+
+/// Looks colours up; the key has only those that are there.
+fn coloured(
+    by_element: impl Iterator<Item = usize> + Clone,
+    key: Vec<(String, [u8; 3])>,
+) -> (Vec<Rgb>, Vec<Swatch>) {
+    let mut there = vec![false; key.len()];
+    by_element.clone().for_each(|number| there[number] = true);
+    let values = by_element.map(|number| colours::linear(key[number].1)).collect();
+    let swatch = |(name, colour)| Swatch { name, colour };
+    let key = key.into_iter().zip(there).filter(|(_, there)| *there);
+    (values, key.map(|(entry, _)| swatch(entry)).collect())
+}
+
+/// Errors of interpolation in the middle of leaves, by element, as shares of what the settings
+/// allow: the larger of that of direct light and, where it was gathered, of indirect light.
+pub(super) fn errors(solved: &Solved<'_>) -> Vec<Rgb> {
+    let mesh = &solved.solution.mesh;
+    let oracle = Oracle::new(solved.settings, solved.surfaces.extent, mean_radiosity(mesh));
+    let error = |leaf: ElementId| {
+        let middle = mesh.find_middle(leaf)?;
+        let reflectance = mesh[mesh[leaf].patch].reflectance;
+        let direct = |v: &Vertex| reflectance * v.direct.unwrap_or_default().irradiance;
+        let of_direct = oracle.excess((mesh, leaf), &middle, direct);
+        let mut places = middle.edges.iter().chain([&middle.centre]);
+        if places.any(|&v| mesh[v].indirect.is_none()) {
+            return Some(of_direct);
+        }
+        let indirect = |v: &Vertex| reflectance * v.indirect.unwrap_or(Rgb::ZERO);
+        Some(of_direct.max(oracle.excess((mesh, leaf), &middle, indirect)))
+    };
+    let mut errors = vec![Rgb::ZERO; mesh.elements.len()];
+    for leaf in mesh.leaves() {
+        errors[leaf.index()] = Rgb::splat(error(leaf).unwrap_or(0.0));
+    }
+    errors
+}
+
+/// Mean of the reflected radiosity over all surfaces, W/m².
+fn mean_radiosity(mesh: &Mesh) -> f64 {
+    let (mut area, mut reflected) = (0.0, 0.0);
+    for leaf in mesh.leaves() {
+        let element = &mesh[leaf];
+        let light: Rgb = element.corners.iter().map(|&v| mesh[v].irradiance()).sum();
+        let mean = mesh[element.patch].reflectance * light / element.corners.len() as f64;
+        area += element.area;
+        reflected += strength(mean) * element.area;
+    }
+    reflected / area.max(f64::MIN_POSITIVE)
+}

@@ -1,0 +1,225 @@
+//! Samples of a picture: a few everywhere, all where those differ.
+//!
+//! Evaluating light anew is dear: it is done once in every pixel and, where that or the first samples
+//! of the interpolated picture differ from what is beside them, at all samples.
+
+use std::ops::{ControlFlow, Range};
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::caster::{Caster, Hit, Sides};
+use super::lines::line_coverage;
+use super::picture::RenderOptions;
+use super::rays::Rays;
+use super::shade::{Gather, Shade};
+use crate::colour::Rgb;
+use crate::scene::Camera;
+
+/// Samples of a pixel and of those beside it may differ by this share of their mean before the pixel
+/// gets all of its samples: about three steps of an 8-bit picture.
+const SMOOTH: f64 = 0.03;
+
+/// Pixels between two questions whether to go on.
+const BATCH: usize = 2048;
+
+/// Means over a pixel.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Pixel {
+    pub(super) value: Rgb,
+    pub(super) coverage: f64,
+    pub(super) line: f64,
+    /// Least and greatest values of the samples, by channel.
+    range: [Rgb; 2],
+}
+
+pub(super) struct Tracer<'a> {
+    shade: Shade<'a>,
+    caster: Caster,
+    rays: Rays,
+    options: &'a RenderOptions,
+    background: Rgb,
+}
+
+/// A place in a pixel, 0..1 across and down.
+type Place = (f64, f64);
+
+impl<'a> Tracer<'a> {
+    pub(super) fn new(
+        (camera, options): (&Camera, &'a RenderOptions),
+        shade: Shade<'a>,
+        background: Rgb,
+    ) -> Self {
+        let rays = Rays::new(camera, options.width, options.height);
+        Self { caster: Caster::new(shade.mesh), shade, rays, options, background }
+    }
+
+    /// All pixels, row by row; once told to stop, without evaluating light anew.
+    pub(super) fn trace(
+        self,
+        gather: Gather<'_>,
+        observe: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Vec<Pixel> {
+        let count = self.options.width as usize * self.options.height as usize;
+        let (first, rest) = places_of_samples(self.options.samples.max(1));
+        let all: Vec<usize> = (0..count).collect();
+        let mut work = Work { tracer: &self, gather, observe };
+        if rest.is_empty() {
+            return work.sample(&all, &first, 0.0..1.0);
+        }
+        let mut pixels = work.batches(&all, 0.0..0.1, |index, _| self.pixel(index, &first, None));
+        if gather.is_some() {
+            let changes = work.changes(&all, first[first.len() / 2], 0.1..0.5);
+            pixels.iter_mut().zip(changes).for_each(|(pixel, change)| pixel.change(change));
+        }
+        let rough: Vec<usize> =
+            all.into_par_iter().filter(|&index| self.is_rough(&pixels, index)).collect();
+        if gather.is_some() {
+            let places = [first, rest].concat();
+            let found = work.sample(&rough, &places, 0.5..1.0);
+            rough.into_iter().zip(found).for_each(|(index, pixel)| pixels[index] = pixel);
+        } else {
+            let share = rest.len() as f64 / (first.len() + rest.len()) as f64;
+            let found = work.sample(&rough, &rest, 0.1..1.0);
+            rough.into_iter().zip(found).for_each(|(index, more)| pixels[index].add(&more, share));
+        }
+        pixels
+    }
+
+    fn pixel(&self, index: usize, places: &[Place], gather: Gather<'_>) -> Pixel {
+        let share = 1.0 / places.len() as f64;
+        let mut pixel = Pixel { range: [Rgb::MAX, Rgb::MIN], ..Pixel::default() };
+        for &place in places {
+            let (value, coverage, line) = match self.look(index, place) {
+                Some((direction, hit)) => {
+                    (self.shade.value(&hit, gather), 1.0, self.line(direction, &hit))
+                }
+                None => (self.background, 0.0, 0.0),
+            };
+            pixel.value += value * share;
+            pixel.coverage += coverage * share;
+            pixel.line += line * share;
+            pixel.range = [pixel.range[0].min(value), pixel.range[1].max(value)];
+        }
+        pixel
+    }
+
+    /// By how much evaluating light anew changes the value at a place in a pixel.
+    fn change(&self, index: usize, place: Place, gather: Gather<'_>) -> Rgb {
+        self.look(index, place).map_or(Rgb::ZERO, |(_, hit)| {
+            self.shade.value(&hit, gather) - self.shade.value(&hit, None)
+        })
+    }
+
+    /// What is met at a place in a pixel, and in which direction.
+    fn look(&self, index: usize, (x, y): Place) -> Option<(DVec3, Hit)> {
+        let width = self.options.width as usize;
+        let (left, top) = ((index % width) as f64, (index / width) as f64);
+        let direction = self.rays.direction(left + x, top + y);
+        let hit = self.caster.first(self.rays.eye, direction.normalize(), Sides::Front)?;
+        Some((direction, hit))
+    }
+
+    /// Strength of the mesh's lines.
+    fn line(&self, direction: DVec3, hit: &Hit) -> f64 {
+        match self.options.view.shows_lines() {
+            true => line_coverage(self.shade.mesh, &self.rays, direction, hit),
+            false => 0.0,
+        }
+    }
+
+    /// True if a pixel's first samples, and those of the pixels beside it, differ.
+    fn is_rough(&self, pixels: &[Pixel], index: usize) -> bool {
+        let width = self.options.width as usize;
+        let (column, row) = (index % width, index / width);
+        let (columns, rows) = (around(column, width), around(row, self.options.height as usize));
+        let near = rows.flat_map(|row| columns.clone().map(move |column| row * width + column));
+        let [mut low, mut high] = pixels[index].range;
+        let mut edge = false;
+        for pixel in near.map(|index| &pixels[index]) {
+            low = low.min(pixel.range[0]);
+            high = high.max(pixel.range[1]);
+            edge |= pixel.line > 0.0 || (pixel.coverage - pixels[index].coverage).abs() > 0.0;
+        }
+        edge |= pixels[index].coverage > 0.0 && pixels[index].coverage < 1.0;
+        edge || (high - low).max_element() > SMOOTH * (high + low).element_sum() / 6.0
+    }
+}
+
+impl Pixel {
+    /// Adds samples that are a `share` of all.
+    fn add(&mut self, more: &Self, share: f64) {
+        self.value = self.value.lerp(more.value, share);
+        self.coverage += (more.coverage - self.coverage) * share;
+        self.line += (more.line - self.line) * share;
+    }
+
+    /// Changes all samples alike.
+    fn change(&mut self, change: Rgb) {
+        self.value = (self.value + change).max(Rgb::ZERO);
+        self.range = self.range.map(|value| value + change);
+    }
+}
+
+/// Samples on their way, in batches that may be the last ones.
+struct Work<'a, 'b> {
+    tracer: &'a Tracer<'a>,
+    gather: Gather<'a>,
+    observe: &'b mut dyn FnMut(f64) -> ControlFlow<()>,
+}
+
+impl<'a> Work<'a, '_> {
+    /// Pixels by the samples at `places`, told as a part of the whole.
+    fn sample(&mut self, pixels: &[usize], places: &[Place], part: Range<f64>) -> Vec<Pixel> {
+        let tracer = self.tracer;
+        self.batches(pixels, part, |index, gather| tracer.pixel(index, places, gather))
+    }
+
+    /// Changes by evaluating light anew at one place of each pixel.
+    fn changes(&mut self, pixels: &[usize], place: Place, part: Range<f64>) -> Vec<Rgb> {
+        let tracer = self.tracer;
+        self.batches(pixels, part, |index, gather| tracer.change(index, place, gather))
+    }
+
+    fn batches<T: Send>(
+        &mut self,
+        pixels: &[usize],
+        part: Range<f64>,
+        find: impl Fn(usize, Gather<'a>) -> T + Sync,
+    ) -> Vec<T> {
+        let mut found = Vec::with_capacity(pixels.len());
+        for batch in pixels.chunks(BATCH) {
+            let done = found.len() as f64 / pixels.len() as f64;
+            if (self.observe)(part.start + done * (part.end - part.start)).is_break() {
+                self.gather = None;
+            }
+            let gather = self.gather;
+            found.par_extend(batch.par_iter().map(|&index| find(index, gather)));
+        }
+        found
+    }
+}
+
+/// A place and those beside it, out of `count`.
+fn around(place: usize, count: usize) -> Range<usize> {
+    place.saturating_sub(1)..(place + 2).min(count)
+}
+
+/// Places in a pixel of `samples` squared samples: those that come first, one a row and column, and
+/// the rest.
+fn places_of_samples(samples: u32) -> (Vec<Place>, Vec<Place>) {
+    let is_first = |i: u32, j: u32| samples < 3 || j == (2 * i + 1) % (samples | 1);
+    let all = (0..samples).flat_map(|i| (0..samples).map(move |j| (i, j)));
+    let (first, rest): (Vec<_>, Vec<_>) = all.partition(|&(i, j)| is_first(i, j));
+    let places = |chosen: Vec<(u32, u32)>| {
+        chosen.into_iter().map(|(i, j)| place_of_sample(i, j, samples)).collect()
+    };
+    (places(first), places(rest))
+}
+
+/// Place in a pixel, 0..1, of sample `i`, `j` out of `samples` squared: on a grid turned so that
+/// no two samples share a row or column, which grades edges near the axes finest.
+fn place_of_sample(i: u32, j: u32, samples: u32) -> Place {
+    let [i, j, n] = [i, j, samples].map(f64::from);
+    ((i + (j + 0.5) / n) / n, (j + (n - i - 0.5) / n) / n)
+}
