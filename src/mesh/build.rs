@@ -9,13 +9,16 @@ use super::{Corners, Element, ElementId, Mesh, Patch, PatchId, Reason, Vertex, V
 use crate::settings::Settings;
 use crate::surface::cut::{Cuts, convex_pieces};
 use crate::surface::polygon::{self, Convex, Segment};
-use crate::surface::{Plane, Surfaces, Weld, mean_texture};
+use crate::surface::{Plane, Surface, Surfaces, Weld, mean_texture};
 
 /// How far inside a border light is evaluated, in tolerances: well beyond what counts as touching it.
 const INSET: f64 = 50.0;
 
 /// Ends of cuts less than this many tolerances from a vertex are moved there.
 const CLOSE: f64 = 200.0;
+
+/// Sine of the least angle by which an outline bends at a corner.
+const STRAIGHT: f64 = 1e-6;
 
 /// Finds the vertex at a place.
 #[derive(Clone, Debug)]
@@ -32,6 +35,8 @@ pub(super) struct VertexIndex {
 #[derive(Clone, Debug)]
 struct Sheet {
     plane: Plane,
+    /// Contact lines, and corners at which the surface bends round something: light may be another on
+    /// each side.
     contacts: Vec<Segment>,
     places: Weld,
 }
@@ -78,7 +83,11 @@ impl Mesh {
             reflectance: surface.reflectance * reflectance_texture,
             exitance: surface.exitance * exitance_texture,
             two_sided: surface.two_sided,
-            contacts: touching(&surface.contacts, outline, surfaces.tolerance),
+            contacts: touching(
+                &self.index.sheets[number as usize].contacts,
+                outline,
+                surfaces.tolerance,
+            ),
         });
         let corners: Corners = outline.iter().map(|&p| self.vertex(patch, p)).collect();
         let children = SmallVec::new();
@@ -119,7 +128,7 @@ impl Mesh {
         let landmarks = &self.index.landmarks;
         let close =
             landmarks.find(plane.lift(position)).map(|number| landmarks.places()[number as usize]);
-        let flat = |place: glam::DVec3| {
+        let flat = |place: DVec3| {
             let flat = plane.flatten(place);
             let aside = polygon::distance(edge, flat).max(plane.lift(flat).distance(place));
             (aside <= 0.1 * self.index.tolerance).then_some(flat)
@@ -185,15 +194,27 @@ impl Mesh {
 impl VertexIndex {
     fn new(surfaces: &Surfaces) -> Self {
         let tolerance = surfaces.tolerance;
-        let sheet = |surface: &crate::surface::Surface| Sheet {
+        let sheet = |surface: &Surface| Sheet {
             plane: surface.plane,
-            contacts: surface.contacts.clone(),
+            contacts: surface.contacts.iter().copied().chain(inner_corners(surface)).collect(),
             places: Weld::new(tolerance),
         };
         let sheets = surfaces.list.iter().map(sheet).collect();
         let landmarks = Weld::new(CLOSE * tolerance);
         Self { sheets, vertices: HashMap::new(), landmarks, tolerance }
     }
+}
+
+/// The corners of a surface of more than 180°, as segments without length.
+fn inner_corners(surface: &Surface) -> impl Iterator<Item = Segment> + '_ {
+    surface.rings.iter().flat_map(|ring| {
+        let n = ring.len();
+        (0..n).filter_map(move |k| {
+            let [before, at, after] = [ring[(k + n - 1) % n], ring[k], ring[(k + 1) % n]];
+            let turn = (at - before).normalize_or_zero().perp_dot((after - at).normalize_or_zero());
+            (turn < -STRAIGHT).then_some([at, at])
+        })
+    })
 }
 
 /// Indices of the segments that come near a convex polygon.

@@ -51,7 +51,7 @@ pub struct Patch {
     pub exitance: Rgb,
     /// True if a patch on the other side of a double-sided polygon covers the same place.
     pub two_sided: bool,
-    /// Contact lines of its surface that touch it, as indices into [`crate::surface::Surface::contacts`].
+    /// Contact lines and inner corners of its surface that touch it.
     contacts: SmallVec<[u32; 4]>,
 }
 
@@ -94,7 +94,8 @@ pub struct Vertex {
     pub position: DVec2,
     /// Where in space light is evaluated for it, m: moved a hair from the border into the patch.
     pub site: DVec3,
-    /// True if a contact line runs through it: its light holds on this patch's side only.
+    /// True if a contact line runs through it, or it is at an inner corner of its surface's outline: its
+    /// light holds on this patch's side only.
     pub on_contact: bool,
     /// Light straight from emitters, once evaluated.
     pub direct: Option<Direct>,

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
-use super::strength;
+use super::{Oracle, strength};
 use crate::direct::Lamps;
 use crate::mesh::{Crossing, ElementId, Mesh, Patch, Split};
 use crate::surface::polygon::{self, Convex, Line, Segment};
@@ -53,6 +53,9 @@ pub fn discontinuities(
     occluders: &Occluders,
 ) -> Vec<Discontinuity> {
     let plane = &surfaces.list[patch.surface as usize].plane;
+    if patch.reflectance.max_element() <= 0.0 {
+        return Vec::new();
+    }
     let outline: Convex = patch.corners.iter().map(|&p| plane.flatten(p)).collect();
     let borders = borders(&outline);
     let lines = lamps.lines(occluders, Facet::new(&patch.corners, patch.normal));
@@ -124,11 +127,11 @@ fn union(a: Segment, b: Segment, tolerance: f64) -> Option<Segment> {
     overlap.then(|| [a[0] + along * low.min(0.0), a[0] + along * high.max(length)])
 }
 
-/// The cut of an element along the line that carries most, if any carries more than `allowed`, W/m².
+/// The cut of an element along the line that carries most, if that is more than the oracle allows.
 pub fn cut(
     (mesh, element): (&Mesh, ElementId),
     lines: &[Discontinuity],
-    allowed: f64,
+    oracle: &Oracle,
     tolerance: f64,
 ) -> Option<Split> {
     let outline = mesh.outline(element);
@@ -146,7 +149,8 @@ pub fn cut(
         Some((error * share, chord.ends))
     };
     let most = lines.iter().filter_map(carried).max_by(|(a, _), (b, _)| a.total_cmp(b));
-    most.filter(|(error, _)| *error > allowed).map(|(_, ends)| Split::Along(ends))
+    most.filter(|(error, _)| *error > oracle.allowed_at(mesh, element))
+        .map(|(_, ends)| Split::Along(ends))
 }
 
 impl Chord {

@@ -22,9 +22,16 @@ const RESIDUE: f64 = 0.7;
 /// larger ones more strictly and smaller ones less, since an error counts by the area that it spoils.
 const PLAIN_SIZE: f64 = 0.02;
 
-/// How strongly size counts. With 1, all elements would share the squared error alike, which gives
-/// the least in all for their number; with 0, the eye would find no element worse than another.
-const SIZE_POWER: f64 = 1.0;
+/// The least and the most that size counts for. In between, allowed errors are as one over the size of
+/// elements, so that all have the same share in the squared error: the least in all for their number.
+const SIZE_RANGE: [f64; 2] = [0.1, 5.0];
+
+/// Light straight from emitters is held to this share of the tolerance: it has the edges that eyes look
+/// for, and costs little to evaluate.
+const DIRECT_SHARE: f64 = 1.0 / 3.0;
+
+/// Light from other surfaces is held to this share: it is smooth, and costs much.
+const REFLECTED_SHARE: f64 = 1.5;
 
 pub use lines::{Discontinuity, cut, discontinuities};
 
@@ -51,10 +58,20 @@ struct Errors {
 }
 
 impl Oracle {
-    /// An oracle for a scene of this extent, m, whose surfaces have this mean radiosity, W/m².
-    pub fn new(settings: &Settings, extent: f64, level: f64) -> Self {
+    /// An oracle of light straight from emitters, for a scene of this extent, m, whose surfaces have
+    /// this mean radiosity, W/m².
+    pub fn of_direct_light(settings: &Settings, extent: f64, level: f64) -> Self {
+        Self::new(settings, DIRECT_SHARE, (extent, level))
+    }
+
+    /// An oracle of light from other surfaces, for a scene of this extent, m, and mean radiosity, W/m².
+    pub fn of_reflected_light(settings: &Settings, extent: f64, level: f64) -> Self {
+        Self::new(settings, REFLECTED_SHARE, (extent, level))
+    }
+
+    fn new(settings: &Settings, share: f64, (extent, level): (f64, f64)) -> Self {
         Self {
-            tolerance: settings.tolerance,
+            tolerance: settings.tolerance * share,
             min_element: settings.min_element.metres(extent),
             max_level: settings.max_level,
             plain_size: PLAIN_SIZE * extent,
@@ -113,7 +130,7 @@ impl Oracle {
     }
 
     /// The error of direct light that an element is allowed, W/m².
-    pub fn allowed_at(&self, mesh: &Mesh, element: ElementId) -> f64 {
+    fn allowed_at(&self, mesh: &Mesh, element: ElementId) -> f64 {
         let reflectance = mesh[mesh[element].patch].reflectance;
         let light = |v: &VertexId| reflectance * mesh[*v].direct.unwrap_or_default().irradiance;
         let corners: SmallVec<[Rgb; 4]> = mesh[element].corners.iter().map(light).collect();
@@ -126,7 +143,8 @@ impl Oracle {
         let here = corners.iter().map(|&c| strength(c)).sum::<f64>() / corners.len() as f64;
         let around = (self.level * here.max(0.05 * self.level)).sqrt();
         let size = mesh[element].area.sqrt();
-        self.tolerance * around * (self.plain_size / size).powf(SIZE_POWER).clamp(0.1, 5.0)
+        let [least, most] = SIZE_RANGE;
+        self.tolerance * around * (self.plain_size / size).clamp(least, most)
     }
 
     /// Why an element is divided.

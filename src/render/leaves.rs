@@ -52,18 +52,20 @@ fn coloured(
 /// allow: the larger of that of direct light and, where it was gathered, of indirect light.
 pub(super) fn errors(solved: &Solved<'_>) -> Vec<Rgb> {
     let mesh = &solved.solution.mesh;
-    let oracle = Oracle::new(solved.settings, solved.surfaces.extent, mean_radiosity(mesh));
+    let (extent, level) = (solved.surfaces.extent, mean_radiosity(mesh));
+    let of_direct_light = Oracle::of_direct_light(solved.settings, extent, level);
+    let of_reflected_light = Oracle::of_reflected_light(solved.settings, extent, level);
     let error = |leaf: ElementId| {
         let middle = mesh.find_middle(leaf)?;
         let reflectance = mesh[mesh[leaf].patch].reflectance;
         let direct = |v: &Vertex| reflectance * v.direct.unwrap_or_default().irradiance;
-        let of_direct = oracle.excess((mesh, leaf), &middle, direct);
+        let of_direct = of_direct_light.excess((mesh, leaf), &middle, direct);
         let mut places = middle.edges.iter().chain([&middle.centre]);
         if places.any(|&v| mesh[v].indirect.is_none()) {
             return Some(of_direct);
         }
         let indirect = |v: &Vertex| reflectance * v.indirect.unwrap_or(Rgb::ZERO);
-        Some(of_direct.max(oracle.excess((mesh, leaf), &middle, indirect)))
+        Some(of_direct.max(of_reflected_light.excess((mesh, leaf), &middle, indirect)))
     };
     let mut errors = vec![Rgb::ZERO; mesh.elements.len()];
     for leaf in mesh.leaves() {

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use super::{Observer, Phase};
 use crate::colour::Rgb;
 use crate::direct::{Lamps, light_vertices};
-use crate::mesh::{Direct, ElementId, Mesh, Middle, Split, Vertex, VertexId};
-use crate::refine::{Discontinuity, Oracle, cut, discontinuities, strength};
+use crate::mesh::{Direct, ElementId, Mesh, Middle, Patch, Split, Vertex, VertexId};
+use crate::refine::{self, Discontinuity, Oracle, cut, strength};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
@@ -58,11 +58,9 @@ pub(super) fn refine(
     if settings.uniform.is_some() {
         return;
     }
-    let share = std::env::var("DS").map_or(1.0, |s| s.parse::<f64>().unwrap());
-    let settings = &Settings { tolerance: settings.tolerance * share, ..settings.clone() };
-    let oracle = Oracle::new(settings, world.surfaces.extent, mean_radiosity(mesh));
+    let oracle = Oracle::of_direct_light(settings, world.surfaces.extent, mean_radiosity(mesh));
+    let lines = discontinuities(world, mesh);
     let mut candidates: Vec<ElementId> = mesh.leaves().collect();
-    let mut lines: Vec<Option<Vec<Discontinuity>>> = vec![None; mesh.patches.len()];
     for level in 0..settings.max_level {
         let share = f64::from(level) / f64::from(settings.max_level);
         if observer.tell(Phase::Direct, share).is_break() {
@@ -72,14 +70,9 @@ pub(super) fn refine(
         let middles: Vec<Middle> = candidates.iter().map(|&e| mesh.middle(e)).collect();
         light(world, mesh);
         let judged = candidates.par_iter().zip(&middles);
-        let verdicts: Vec<Option<Split>> =
-            judged.map(|(&e, middle)| judge(world, mesh, &oracle, e, middle)).collect();
-
-        let verdicts = if std::env::var("NL").is_ok() {
-            verdicts
-        } else {
-            along_lines(world, (mesh, &oracle), &mut lines, (&candidates, verdicts))
-        };
+        let verdicts: Vec<Option<Split>> = judged
+            .map(|(&e, middle)| divide((world, mesh), (&oracle, &lines), e, middle))
+            .collect();
         let mut parts = Vec::new();
         for ((&element, middle), verdict) in candidates.iter().zip(&middles).zip(verdicts) {
             if let Some(split) = verdict {
@@ -91,39 +84,11 @@ pub(super) fn refine(
     }
 }
 
-/// Cuts along discontinuity lines instead, where one carries more than is allowed.
-fn along_lines(
-    world: World<'_>,
-    (mesh, oracle): (&Mesh, &Oracle),
-    lines: &mut [Option<Vec<Discontinuity>>],
-    (candidates, verdicts): (&[ElementId], Vec<Option<Split>>),
-) -> Vec<Option<Split>> {
-    let split = candidates
-        .iter()
-        .zip(&verdicts)
-        .filter(|(_, verdict)| std::env::var("OV").is_err() || verdict.is_some());
-    let mut patches: Vec<usize> = split.map(|(&e, _)| mesh[e].patch.index()).collect();
-    patches.dedup();
-    patches.sort_unstable();
-    patches.dedup();
-    patches.retain(|&patch| lines[patch].is_none());
+/// Discontinuity lines, patch by patch.
+fn discontinuities(world: World<'_>, mesh: &Mesh) -> Vec<Vec<Discontinuity>> {
     let World { surfaces, occluders, lamps } = world;
-    let found = patches
-        .par_iter()
-        .map(|&patch| discontinuities((surfaces, &mesh.patches[patch]), lamps, occluders));
-    let found: Vec<_> = found.collect();
-    for (&patch, found) in patches.iter().zip(found) {
-        lines[patch] = Some(found);
-    }
-    let choose = |(&element, verdict): (&ElementId, Option<Split>)| {
-        let lines = lines[mesh[element].patch.index()].as_deref().unwrap_or(&[]);
-        if std::env::var("OV").is_ok() && verdict.is_none() {
-            return None;
-        }
-        let allowed = oracle.allowed_at(mesh, element);
-        cut((mesh, element), lines, allowed, surfaces.tolerance).or(verdict)
-    };
-    candidates.par_iter().zip(verdicts).map(choose).collect()
+    let lines = |patch: &Patch| refine::discontinuities((surfaces, patch), lamps, occluders);
+    mesh.patches.par_iter().map(lines).collect()
 }
 
 /// Black surfaces show no light, so nothing is gained by dividing them.
@@ -146,9 +111,20 @@ pub(super) fn mean_radiosity(mesh: &Mesh) -> f64 {
     reflected / (area - reflectance).max(f64::MIN_POSITIVE)
 }
 
+/// How to divide an element, if at all: along a discontinuity line, or as the oracle says.
+fn divide(
+    (world, mesh): (World<'_>, &Mesh),
+    (oracle, lines): (&Oracle, &[Vec<Discontinuity>]),
+    element: ElementId,
+    middle: &Middle,
+) -> Option<Split> {
+    let lines = &lines[mesh[element].patch.index()];
+    let cut = cut((mesh, element), lines, oracle, world.surfaces.tolerance);
+    cut.or_else(|| judge((world, mesh), oracle, element, middle))
+}
+
 fn judge(
-    world: World<'_>,
-    mesh: &Mesh,
+    (world, mesh): (World<'_>, &Mesh),
     oracle: &Oracle,
     element: ElementId,
     middle: &Middle,

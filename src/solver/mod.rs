@@ -173,9 +173,7 @@ fn gather(
 ) -> usize {
     let level = direct_pass::mean_radiosity(mesh);
     let fine = GATHER_SHARE * settings.tolerance * level;
-    let share = std::env::var("IS").map_or(1.0, |s| s.parse::<f64>().unwrap());
-    let settings2 = &Settings { tolerance: settings.tolerance * share, ..settings.clone() };
-    let oracle = Oracle::new(settings2, world.surfaces.extent, level);
+    let oracle = Oracle::of_reflected_light(settings, world.surfaces.extent, level);
     let mut gatherer = Gatherer::new(world, exchange.sources(mesh), fine);
     for round in 1..=ROUNDS {
         indirect_pass::refine((settings, &oracle), &mut gatherer, mesh, observer);
