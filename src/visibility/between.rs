@@ -92,6 +92,11 @@ impl Occluders {
 }
 
 impl Between {
+    /// Distances that count as zero, m.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
     /// True if nothing stands between the polygons.
     pub fn is_empty(&self) -> bool {
         self.parts.is_empty()
@@ -101,12 +106,6 @@ impl Between {
     /// that something is seen.
     pub fn hides_all(&self) -> bool {
         self.hides_all
-    }
-
-    /// Distance, m, from a point to the nearest corner of what stands between.
-    pub fn distance(&self, point: DVec3) -> f64 {
-        let corners = self.parts.iter().flat_map(|part| &part.corners);
-        corners.map(|corner| corner.distance(point)).fold(f64::INFINITY, f64::min)
     }
 
     /// The pieces of `source`, one of the two polygons, that `eye`, on the other one, sees.

@@ -1,5 +1,6 @@
 //! Laws of whole matrices: reciprocity, closure, additivity, and a matrix that is made to keep them.
 
+use std::f64::consts::{FRAC_PI_4, SQRT_2};
 use std::ops::ControlFlow;
 
 use glam::DVec3;
@@ -10,7 +11,7 @@ use radiosity::mesh::Mesh;
 use radiosity::visibility::{Facet, HalfSpace, Occluders};
 use radiosity::{Length, Scene, Settings, surfaces_of};
 
-use crate::common::{Block, furnished_room};
+use crate::common::{Block, Stage, furnished_room};
 
 fn room() -> Scene {
     furnished_room(&[
@@ -41,6 +42,39 @@ fn rows_of_a_closed_room_sum_to_one_by_every_method() {
         let (closure, n) = (closure(&assembled), assembled.factors.len());
         assert!(n > 100 && closure < tolerance, "{method:?}: {closure} in {n} rows");
         assert!(assembled.factors.reciprocity() < 1e-12, "{method:?}");
+    }
+}
+
+/// A room of a metre's patches with a box of which two corners jut out by `width`, m, over borders of
+/// patches of the floor, and a thin screen that cuts as little off the corner of another.
+fn room_with_slivers(width: f64) -> Scene {
+    let mut stage = Stage::default();
+    let (grey, both) = (stage.material(0.5, 0.0), stage.double_sided(0.5, 0.0));
+    stage.room(grey, DVec3::ZERO, DVec3::new(4.0, 3.0, 5.0));
+    let side = SQRT_2 * (0.2 + width);
+    let (base, size) = (DVec3::new(3.2, 0.0, 1.2), DVec3::new(side, 0.7, side));
+    stage.block(grey, Block { base, size, turn: FRAC_PI_4 });
+    let (from, to) = (DVec3::new(1.3 - width, 0.0, 4.7), DVec3::new(2.7 - width, 0.0, 3.3));
+    stage.polygon(both, &[from, to, to.with_y(2.0), from.with_y(2.0)]);
+    stage.scene
+}
+
+#[test]
+fn slivers_under_boxes_see_the_box_alone_and_those_beside_screens_one_side() {
+    for width in [1e-3, 1e-4] {
+        let scene = room_with_slivers(width);
+        let tolerance = surfaces_of(&scene).tolerance;
+        let Assembled { factors, on_backs, .. } = matrix(&scene, 1.0, Method::Contour);
+        let is_sliver = |area: f64| area < 2.0 * width * width;
+        assert_eq!(factors.areas().iter().filter(|&&area| is_sliver(area)).count(), 3);
+        for (i, (sum, backs)) in factors.row_sums().into_iter().zip(on_backs).enumerate() {
+            let miss = (1.0 - sum - backs).abs();
+            let is_covered = factors.row(i).any(|(_, factor)| factor > 0.999);
+            let beside = is_sliver(factors.areas()[i]) && !is_covered;
+            // Half a sliver's sight is the screen's, and all within the tolerance is in its plane.
+            let allowed = if beside { tolerance / width } else { 4e-4 };
+            assert!(miss < allowed, "row {i} of a sliver {width} m wide: {sum}");
+        }
     }
 }
 
@@ -105,6 +139,30 @@ fn triangle(centre: DVec3) -> impl Strategy<Value = [DVec3; 3]> {
 fn facet<'a>(corners: &'a [DVec3], towards: DVec3) -> Facet<'a> {
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
     Facet::new(corners, normal * normal.dot(towards - corners[0]).signum())
+}
+
+#[test]
+fn metres_and_millimetres_give_the_same_shares() {
+    let square = |z: f64, size: f64, turn: f64| {
+        let corner = |k: u32| {
+            let angle = turn * (std::f64::consts::FRAC_PI_2 * f64::from(k) + 0.3);
+            DVec3::new(size * angle.cos(), size * angle.sin(), z)
+        };
+        [0, 1, 2, 3].map(corner)
+    };
+    let share = |unit: f64| {
+        let scaled = |corners: [DVec3; 4]| corners.map(|corner| corner * unit);
+        let [a, b] = [scaled(square(0.0, 0.8, 1.0)), scaled(square(1.0, 0.6, -1.0))];
+        let blocker = scaled(square(0.6, 0.3, 1.0));
+        let occluders = Occluders::from_polygons(&[&blocker], 1e-7 * unit);
+        let (first, second) = (facet(&a, b[0]), facet(&b, a[0]));
+        visible_exchange(&occluders, first, second, 1e-4) / exchange(first, second)
+    };
+    let metres = share(1.0);
+    assert!((0.2..0.9).contains(&metres), "some of it is hidden: {metres}");
+    for unit in [1e-3, 0.3048, 1e3] {
+        assert!((share(unit) / metres - 1.0).abs() < 1e-9, "{} in units of {unit} m", share(unit));
+    }
 }
 
 proptest! {

@@ -3,7 +3,9 @@
 //! Where they lie is no different from where two faces lie back to back; what they see is: within a
 //! solid there are mostly backs.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3A};
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
 use rayon::prelude::*;
 
 use super::Row;
@@ -11,10 +13,15 @@ use crate::form_factor::hemicube::frame;
 use crate::form_factor::rays::Sphere;
 use crate::mesh::Patch;
 use crate::scene::area_vector;
+use crate::visibility::hierarchy::hierarchy;
 use crate::visibility::{HalfSpace, Occluders, PatchHierarchy, Polygon};
 
 /// Rays that tell whether a place is within a solid.
 const PROBES: usize = 64;
+
+/// A patch of which other patches cover more than this share is covered: what is left is as narrow as
+/// the precision with which patches are cut along those on them.
+const COVERED: f64 = 0.999;
 
 /// What patches touch.
 #[derive(Debug)]
@@ -23,6 +30,8 @@ pub(super) struct Contacts {
     face_to_face: Vec<Vec<Contact>>,
     /// By patch: true if its back is behind the front of another, or has a patch of its own.
     backed: Vec<bool>,
+    /// By patch: true if those face to face with it leave nothing of it.
+    covered: Vec<bool>,
 }
 
 /// A patch that lies on another.
@@ -37,15 +46,18 @@ struct Contact {
 impl Contacts {
     pub(super) fn find(patches: &[Patch], occluders: &Occluders) -> Self {
         let tolerance = occluders.tolerance();
+        let boxes = boxes(patches, tolerance);
+        let tree = hierarchy(&boxes);
         let touching = |i: usize| -> Vec<Contact> {
-            let others = patches.iter().zip(0..);
-            others.filter_map(|(other, j)| Contact::of(&patches[i], other, j, tolerance)).collect()
+            let near = near(&tree, boxes[i]);
+            let contact = |j: u32| Contact::of(&patches[i], &patches[j as usize], j, tolerance);
+            near.into_iter().filter_map(contact).collect()
         };
         let mut all: Vec<Vec<Contact>> = (0..patches.len()).into_par_iter().map(touching).collect();
-        let backed = |(patch, contacts): (&Patch, &Vec<Contact>)| {
-            let covered: f64 = contacts.iter().map(Contact::area).sum();
-            patch.two_sided || covered > 0.5 * patch.area
+        let covered_share = |(patch, contacts): (&Patch, &Vec<Contact>)| {
+            contacts.iter().map(Contact::area).sum::<f64>() / patch.area
         };
+        let backed = |both: (&Patch, &Vec<Contact>)| both.0.two_sided || covered_share(both) > 0.5;
         let backed = patches.iter().zip(&all).map(backed).collect();
         if all.iter().any(|contacts| !contacts.is_empty()) {
             let (hierarchy, sphere) = (PatchHierarchy::new(patches), Sphere::new(PROBES));
@@ -66,13 +78,19 @@ impl Contacts {
                 });
             });
         }
-        Self { face_to_face: all, backed }
+        let covered = patches.iter().zip(&all).map(|both| covered_share(both) > COVERED).collect();
+        Self { face_to_face: all, backed, covered }
     }
 
     /// Exchanges, m², of patch `i` with those after it that it touches.
     pub(super) fn row(&self, i: usize) -> Row {
         let after = self.face_to_face[i].iter().filter(|contact| contact.other as usize > i);
         after.map(|contact| (contact.other, contact.area())).collect()
+    }
+
+    /// True if patch `i` sees nothing but what it touches.
+    pub(super) fn is_covered(&self, i: usize) -> bool {
+        self.covered[i]
     }
 
     /// True if light cannot end on the black back of patch `i`.
@@ -113,6 +131,47 @@ impl Contact {
             (to - from).cross(point - from).dot(self.normal) <= 0.0
         })
     }
+}
+
+/// Boxes around patches, with all that may lie on them; in 32 bits, about the middle of all.
+fn boxes(patches: &[Patch], tolerance: f64) -> Vec<Aabb> {
+    /// Growth, as a share of all: more than rounding to 32 bits and than patches in one plane may
+    /// turn away from each other.
+    const GROWTH: f64 = 1e-4;
+    let corners = || patches.iter().flat_map(|patch| patch.corners.iter().copied());
+    let low = corners().fold(DVec3::INFINITY, DVec3::min);
+    let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let (centre, margin) = (low.midpoint(high), tolerance + GROWTH * low.distance(high));
+    let around = |patch: &Patch| {
+        let mut tight = Aabb::INVALID;
+        patch.corners.iter().for_each(|&corner| {
+            tight.extend((corner - centre).as_vec3a());
+        });
+        let margin = Vec3A::splat(margin as f32);
+        Aabb::new(tight.min - margin, tight.max + margin)
+    };
+    patches.iter().map(around).collect()
+}
+
+/// The boxes that overlap one, ascending.
+fn near(tree: &Bvh2, bounds: Aabb) -> Vec<u32> {
+    let (mut near, mut stack) = (Vec::new(), vec![0]);
+    while let Some(index) = stack.pop() {
+        let node = &tree.nodes[index as usize];
+        let overlaps =
+            node.aabb().min.cmple(bounds.max).all() && node.aabb().max.cmpge(bounds.min).all();
+        if !overlaps {
+            continue;
+        }
+        if !node.is_leaf() {
+            stack.extend([node.first_index, node.first_index + 1]);
+            continue;
+        }
+        let first = node.first_index as usize;
+        near.extend(&tree.primitive_indices[first..first + node.prim_count as usize]);
+    }
+    near.sort_unstable();
+    near
 }
 
 impl Patch {

@@ -49,7 +49,7 @@ pub struct Assembled {
 const BATCH: usize = 64;
 
 /// Rows whose sums are nearer to one than this have no light on backs worth looking for.
-const CLOSED: f64 = 1e-3;
+const CLOSED: f64 = 4e-4;
 
 /// Fewest cells along a hemicube's edge.
 const LEAST_RESOLUTION: u32 = 32;
@@ -68,8 +68,8 @@ pub fn assemble(
     method: Method,
     mut observe: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Assembled {
-    let exchanges = contour::Exchanges::new(patches, occluders);
     let contacts = contacts::Contacts::find(patches, occluders);
+    let exchanges = contour::Exchanges::new(patches, occluders, &contacts);
     let mut rows: Vec<Row> = Vec::with_capacity(patches.len());
     let areas: Vec<f64> = patches.iter().map(|patch| patch.area).collect();
     match method {
@@ -98,17 +98,12 @@ pub fn assemble(
     }
     for (i, row) in rows.iter_mut().enumerate() {
         *row = merged(std::mem::take(row), contacts.row(i).into_iter());
+        row.shrink_to_fit();
     }
-    mirror(&mut rows, &areas);
-    rows[done..].iter_mut().for_each(Vec::clear);
-    let factors = FormFactors::from_rows(areas, rows);
+    let factors = FormFactors::from_exchanges(areas, rows, done);
     let sums = factors.row_sums();
     let on_backs = |(i, sum): (usize, f64)| {
-        if i < done && sum < 1.0 - CLOSED {
-            exchanges.on_backs(i, &contacts).min(1.0 - sum)
-        } else {
-            0.0
-        }
+        if i < done && sum < 1.0 - CLOSED { exchanges.on_backs(i).min(1.0 - sum) } else { 0.0 }
     };
     let on_backs = sums.into_par_iter().enumerate().map(on_backs).collect();
     Assembled { factors, on_backs, rows: done }
@@ -170,19 +165,4 @@ fn merged(first: Row, second: impl Iterator<Item = (u32, f64)>) -> Row {
         same
     });
     both
-}
-
-/// Completes exchanges above the diagonal to form factors on both of its sides.
-fn mirror(rows: &mut [Row], areas: &[f64]) {
-    let mut below = vec![Row::new(); rows.len()];
-    for (i, row) in rows.iter_mut().enumerate() {
-        for (j, value) in row {
-            below[*j as usize].push((i as u32, *value / areas[*j as usize]));
-            *value /= areas[i];
-        }
-    }
-    for (row, mut below) in rows.iter_mut().zip(below) {
-        below.append(row);
-        *row = below;
-    }
 }

@@ -33,6 +33,46 @@ impl FormFactors {
         Self { areas, starts, columns, factors }
     }
 
+    /// From the patches' areas, m², and rows of exchanges `A[i] F[i][j]`, m², above the diagonal: (column,
+    /// exchange), columns ascending. Only the first `done` rows of the matrix are filled.
+    ///
+    /// Takes hardly more memory than the matrix and the exchanges.
+    pub(super) fn from_exchanges(
+        areas: Vec<f64>,
+        above: Vec<Vec<(u32, f64)>>,
+        done: usize,
+    ) -> Self {
+        let is_some = |&(_, exchange): &(u32, f64)| exchange != 0.0;
+        let mut starts = vec![0; areas.len() + 1];
+        for (i, row) in above[..done].iter().enumerate() {
+            for &(j, _) in row.iter().filter(|entry| is_some(entry)) {
+                starts[i + 1] += 1;
+                starts[j as usize + 1] += usize::from((j as usize) < done);
+            }
+        }
+        for i in 0..areas.len() {
+            starts[i + 1] += starts[i];
+        }
+        let (mut columns, mut factors) =
+            (vec![0; starts[areas.len()]], vec![0.0; starts[areas.len()]]);
+        let mut next = starts.clone();
+        let mut put = |i: usize, j: usize, exchange: f64| {
+            columns[next[i]] = j as u32;
+            factors[next[i]] = exchange / areas[i];
+            next[i] += 1;
+        };
+        // Each row is dropped once it is spread. What rows above put into one comes first in it.
+        for (i, row) in above.into_iter().enumerate().take(done) {
+            for (j, exchange) in row.into_iter().filter(is_some) {
+                put(i, j as usize, exchange);
+                if (j as usize) < done {
+                    put(j as usize, i, exchange);
+                }
+            }
+        }
+        Self { areas, starts, columns, factors }
+    }
+
     /// Number of patches.
     pub fn len(&self) -> usize {
         self.areas.len()

@@ -4,6 +4,7 @@
 
 mod cubature;
 mod edges;
+mod grid;
 mod occluded;
 
 use std::f64::consts::PI;
