@@ -200,3 +200,29 @@ fn area(polygon: &[DVec2]) -> f64 {
     let fan = polygon.windows(2).map(|pair| (pair[0] - from).perp_dot(pair[1] - from));
     fan.sum::<f64>().abs() / 2.0
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::visibility::Occluders;
+
+    /// Share of a lamp over the eye that is seen past an upright wall of this height over the eye.
+    fn seen_past(top: f64) -> f64 {
+        let lamp = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        let lamp = lamp.map(|(x, z)| DVec3::new(x, 2.0, z));
+        let wall = [(-1.0, -9.0), (-1.0, 9.0), (top, 9.0), (top, -9.0)];
+        let wall = wall.map(|(y, z)| DVec3::new(0.5, y, z));
+        let occluders = Occluders::from_polygons(&[&wall], 1e-6);
+        let pieces = occluders.visible_part(DVec3::ZERO, &lamp, DVec3::NEG_Y).unwrap_or_default();
+        let area = |p: &Polygon| crate::scene::area_vector(p).length();
+        pieces.iter().map(area).sum::<f64>() / area(&Polygon::from_slice(&lamp))
+    }
+
+    #[test]
+    fn wall_hides_what_it_reaches_up_to_and_nothing_from_an_eye_at_its_top() {
+        assert!((seen_past(0.0) - 1.0).abs() < 1e-12, "{}", seen_past(0.0));
+        assert!((seen_past(1.0) - 1.0).abs() < 1e-12, "{}", seen_past(1.0));
+        assert!((seen_past(1.25) - 0.9).abs() < 1e-12, "{}", seen_past(1.25));
+        assert!((seen_past(2.0) - 0.75).abs() < 1e-12, "{}", seen_past(2.0));
+    }
+}
