@@ -3,8 +3,8 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::shaft::{Pieces, subtract};
-use super::{Facet, HalfSpace, Occluder, Occluders, Polygon};
+use super::shadow::Seen;
+use super::{Facet, HalfSpace, Occluder, Occluders, Pieces, Polygon};
 use crate::scene::area_vector;
 
 /// Corners nearer to each other than this share of the tolerance are one.
@@ -112,15 +112,16 @@ impl Between {
     ///
     /// The eye must be in front of the source's plane.
     pub fn visible_part(&self, eye: DVec3, source: Facet<'_>) -> Pieces {
-        let mut pieces = Pieces::new();
-        pieces.push(Polygon::from_slice(source.corners));
+        let mut seen = Seen::new(eye, source, self.tolerance);
         for part in &self.parts {
-            subtract(&mut pieces, (eye, source), part, self.tolerance);
-            if pieces.is_empty() {
+            if let Some(shadow) = seen.shadow(part) {
+                seen.subtract(&shadow);
+            }
+            if seen.is_empty() {
                 break;
             }
         }
-        pieces
+        seen.pieces()
     }
 }
 

@@ -5,6 +5,7 @@ mod clip;
 pub mod hierarchy;
 pub mod packet;
 mod patches;
+mod shadow;
 mod shaft;
 
 use glam::{DVec3, Vec3A};

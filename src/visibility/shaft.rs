@@ -3,14 +3,18 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
+use super::Occluders;
 use super::clip::{Facet, HalfSpace, Polygon};
-use super::{Occluder, Occluders};
+use super::shadow::{Seen, Shadow};
 
 /// The visible pieces of a polygon; they do not overlap.
 pub type Pieces = SmallVec<[Polygon; 2]>;
 
 /// Beyond this many pieces a shaft is crowded, and cutting on costs more than sampling.
 const CROWDED: usize = 96;
+
+/// Shadows are sorted by size in lots of this many.
+const BATCH: usize = 64;
 
 /// Everything between a point and a polygon: a pyramid.
 struct Shaft {
@@ -80,18 +84,22 @@ impl Occluders {
     ) -> Option<Pieces> {
         let facet = Facet::new(source, normal);
         let shaft = Shaft::new(eye, source, facet.plane);
-        let mut pieces = Pieces::new();
-        pieces.push(Polygon::from_slice(source));
+        let mut seen = Seen::new(eye, facet, self.tolerance);
+        let mut shadows: Vec<Shadow> = Vec::new();
         self.for_each(
             |low, high| shaft.meets_box(low, high, self.tolerance),
             |_, occluder| {
                 if shaft.meets(&occluder.corners, self.tolerance) {
-                    subtract(&mut pieces, (eye, facet), occluder, self.tolerance);
+                    shadows.extend(seen.shadow(occluder));
                 }
-                !pieces.is_empty() && pieces.len() <= most
+                if shadows.len() >= BATCH || shadows.last().is_some_and(Shadow::covers_all) {
+                    subtract_all(&mut seen, &mut shadows);
+                }
+                !seen.is_empty() && seen.len() <= most
             },
         );
-        (pieces.len() <= most).then_some(pieces)
+        subtract_all(&mut seen, &mut shadows);
+        (seen.len() <= most).then(|| seen.pieces())
     }
 
     /// True if something may stand between `eye` and a part of `source`.
@@ -111,57 +119,16 @@ impl Occluders {
     }
 }
 
-/// Takes the shadow that an occluder throws from an eye out of the pieces of a source in front of which
-/// the eye is.
-pub(super) fn subtract(
-    pieces: &mut Pieces,
-    (eye, source): (DVec3, Facet<'_>),
-    occluder: &Occluder,
-    tolerance: f64,
-) {
-    let height = occluder.plane.depth(eye);
-    if height.abs() <= 2.0 * tolerance {
-        return;
-    }
-    // What lies behind the source's plane hides nothing.
-    let crosses = occluder.corners.iter().any(|&corner| source.plane.depth(corner) < 0.0);
-    let clipped = if crosses { source.plane.clip(&occluder.corners) } else { Polygon::new() };
-    let front = if crosses { &clipped } else { &occluder.corners };
-    if front.is_empty() {
-        return;
-    }
-    let shadow: SmallVec<[HalfSpace; 8]> = cone(eye, front, height).collect();
-    let tolerance = tolerance * 1e-3;
-    let misses = |polygon: &[DVec3]| {
-        shadow.iter().any(|side| polygon.iter().all(|&p| side.depth(p) <= tolerance))
-    };
-    if misses(source.corners) {
-        return;
-    }
-    let mut cut = Pieces::new();
-    pieces.retain(|piece| {
-        let is_clear = misses(piece);
-        if !is_clear {
-            subtract_cone(piece, &shadow, tolerance, &mut cut);
+/// Takes shadows out of what is seen, the largest first: it leaves the others little to cut.
+fn subtract_all(seen: &mut Seen, shadows: &mut Vec<Shadow>) {
+    let mut order: SmallVec<[(f64, usize); BATCH]> = SmallVec::new();
+    order.extend(shadows.iter().enumerate().map(|(k, shadow)| (shadow.area, k)));
+    order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    for (_, k) in order {
+        if seen.is_empty() {
+            break;
         }
-        is_clear
-    });
-    pieces.append(&mut cut);
-}
-
-/// Adds to `visible` what of a piece is outside of at least one of the half spaces.
-fn subtract_cone(piece: &Polygon, cone: &[HalfSpace], tolerance: f64, visible: &mut Pieces) {
-    let mut rest = piece.clone();
-    for side in cone {
-        if rest.iter().any(|&p| side.depth(p) < -tolerance) {
-            let outside = side.complement().clip(&rest);
-            if !outside.is_empty() {
-                visible.push(outside);
-            }
-            rest = side.clip(&rest);
-        }
-        if rest.is_empty() {
-            return;
-        }
+        seen.subtract(&shadows[k]);
     }
+    shadows.clear();
 }

@@ -1,0 +1,228 @@
+//! Shadows on a polygon as an eye sees them, cut out of it in its own plane.
+
+use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
+
+use super::clip::{Facet, HalfSpace, Polygon};
+use super::{Occluder, Pieces};
+
+/// A convex polygon in the source's plane, m.
+type Flat = SmallVec<[DVec2; 8]>;
+
+/// Share of the tolerance by which a shadow must reach into a piece: above rounding alone.
+const ROUNDING: f64 = 1e-3;
+
+/// What an eye sees of a source.
+pub(super) struct Seen {
+    eye: DVec3,
+    /// The eye is in front.
+    plane: HalfSpace,
+    /// The first corner of the source.
+    origin: DVec3,
+    /// Orthonormal axes of its plane.
+    axes: [DVec3; 2],
+    whole: Flat,
+    pieces: SmallVec<[Flat; 4]>,
+    tolerance: f64,
+}
+
+/// A half space where it meets the source's plane.
+#[derive(Clone, Copy)]
+struct Side {
+    /// Change of depth, m, by metre along the axes.
+    slope: DVec2,
+    /// Depth of the source's first corner, m.
+    offset: f64,
+}
+
+/// A shadow: what is on the inner sides of all its borders.
+pub(super) struct Shadow {
+    sides: SmallVec<[Side; 4]>,
+    /// Area of its part on the source, m².
+    pub(super) area: f64,
+}
+
+impl Seen {
+    /// All of `source`, in front of whose plane the eye is; distances up to `tolerance`, m, count as zero.
+    pub(super) fn new(eye: DVec3, source: Facet<'_>, tolerance: f64) -> Self {
+        let normal = source.plane.normal;
+        let origin = source.corners[0];
+        let x = (source.corners[1] - origin).try_normalize();
+        let x = x.unwrap_or_else(|| normal.any_orthonormal_vector());
+        let axes = [x, normal.cross(x)];
+        let flat = |&p: &DVec3| DVec2::from(axes.map(|axis| (p - origin).dot(axis)));
+        let whole: Flat = source.corners.iter().map(flat).collect();
+        let mut pieces = SmallVec::new();
+        pieces.push(whole.clone());
+        Self { eye, plane: source.plane, origin, axes, whole, pieces, tolerance }
+    }
+
+    /// The pieces left; they do not overlap.
+    pub(super) fn pieces(&self) -> Pieces {
+        let lift = |p: &DVec2| self.origin + self.axes[0] * p.x + self.axes[1] * p.y;
+        self.pieces.iter().map(|piece| piece.iter().map(lift).collect()).collect()
+    }
+
+    /// Number of pieces left.
+    pub(super) fn len(&self) -> usize {
+        self.pieces.len()
+    }
+
+    /// True if nothing is left.
+    pub(super) fn is_empty(&self) -> bool {
+        self.pieces.is_empty()
+    }
+
+    /// The shadow that an occluder throws on the source, if any of it is hit.
+    pub(super) fn shadow(&self, occluder: &Occluder) -> Option<Shadow> {
+        let height = occluder.plane.depth(self.eye);
+        if height.abs() <= 2.0 * self.tolerance {
+            return None;
+        }
+        // What lies behind the source's plane hides nothing.
+        let crosses = occluder.corners.iter().any(|&corner| self.plane.depth(corner) < 0.0);
+        let clipped = if crosses { self.plane.clip(&occluder.corners) } else { Polygon::new() };
+        let front = if crosses { &clipped } else { &occluder.corners };
+        let least = ROUNDING * self.tolerance;
+        let mut sides = SmallVec::new();
+        let (mut on_source, mut spare) = (self.whole.clone(), Flat::new());
+        for (k, &from) in front.iter().enumerate() {
+            let to = front[(k + 1) % front.len()];
+            let Some(side) = self.side([from, to], -height.signum()) else { continue };
+            match side.cuts(&on_source, least) {
+                Cut::Outside => return None,
+                Cut::Inside => {}
+                Cut::Both => {
+                    side.clip(&on_source, 1.0, &mut spare);
+                    std::mem::swap(&mut on_source, &mut spare);
+                    sides.push(side);
+                }
+            }
+        }
+        (front.len() >= 3).then(|| Shadow { sides, area: area(&on_source) })
+    }
+
+    /// The half space of the eye and an edge, in the source's plane; an edge that points at the eye
+    /// bounds nothing.
+    fn side(&self, [from, to]: [DVec3; 2], turn: f64) -> Option<Side> {
+        let normal = ((from - self.eye).cross(to - self.eye) * turn).try_normalize()?;
+        let slope = DVec2::from(self.axes.map(|axis| axis.dot(normal)));
+        Some(Side { slope, offset: normal.dot(self.origin - self.eye) })
+    }
+
+    /// Takes a shadow out of what is left.
+    pub(super) fn subtract(&mut self, shadow: &Shadow) {
+        let least = ROUNDING * self.tolerance;
+        for k in (0..self.pieces.len()).rev() {
+            let piece = &self.pieces[k];
+            if !shadow.sides.iter().any(|side| matches!(side.cuts(piece, least), Cut::Outside)) {
+                self.cut(k, &shadow.sides, least);
+            }
+        }
+    }
+
+    /// Replaces a piece by its parts outside of at least one of the sides.
+    fn cut(&mut self, piece: usize, sides: &[Side], least: f64) {
+        let count = self.pieces.len();
+        let (mut rest, mut spare) = (self.pieces[piece].clone(), Flat::new());
+        for side in sides {
+            match side.cuts(&rest, least) {
+                // No part is in the shadow after all.
+                Cut::Outside => return self.pieces.truncate(count),
+                Cut::Inside => {}
+                Cut::Both => {
+                    let mut outside = Flat::new();
+                    side.clip(&rest, -1.0, &mut outside);
+                    self.pieces.push(outside);
+                    side.clip(&rest, 1.0, &mut spare);
+                    std::mem::swap(&mut rest, &mut spare);
+                }
+            }
+        }
+        self.pieces.swap_remove(piece);
+    }
+}
+
+impl Shadow {
+    /// True if all of the source lies in it.
+    pub(super) fn covers_all(&self) -> bool {
+        self.sides.is_empty()
+    }
+}
+
+/// On which sides of a line something lies.
+enum Cut {
+    Inside,
+    Outside,
+    Both,
+}
+
+impl Side {
+    fn depth(&self, p: DVec2) -> f64 {
+        self.slope.dot(p) + self.offset
+    }
+
+    fn cuts(&self, polygon: &[DVec2], least: f64) -> Cut {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for &p in polygon {
+            let depth = self.depth(p);
+            low = low.min(depth);
+            high = high.max(depth);
+        }
+        match (high > least, low < -least) {
+            (false, _) => Cut::Outside,
+            (true, false) => Cut::Inside,
+            (true, true) => Cut::Both,
+        }
+    }
+
+    /// Fills `part` with what of a polygon is inside, or outside if `sign` is -1.
+    #[inline]
+    fn clip(&self, polygon: &[DVec2], sign: f64, part: &mut Flat) {
+        part.clear();
+        let mut corner = polygon[polygon.len() - 1];
+        let mut from = self.depth(corner) * sign;
+        for &next in polygon {
+            let to = self.depth(next) * sign;
+            if from * to < 0.0 {
+                part.push(corner.lerp(next, from / (from - to)));
+            }
+            if to >= 0.0 {
+                part.push(next);
+            }
+            (corner, from) = (next, to);
+        }
+    }
+}
+
+fn area(polygon: &[DVec2]) -> f64 {
+    let from = polygon[0];
+    let fan = polygon.windows(2).map(|pair| (pair[0] - from).perp_dot(pair[1] - from));
+    fan.sum::<f64>().abs() / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::visibility::Occluders;
+
+    /// Share of a lamp over the eye that is seen past an upright wall of this height over the eye.
+    fn seen_past(top: f64) -> f64 {
+        let lamp = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        let lamp = lamp.map(|(x, z)| DVec3::new(x, 2.0, z));
+        let wall = [(-1.0, -9.0), (-1.0, 9.0), (top, 9.0), (top, -9.0)];
+        let wall = wall.map(|(y, z)| DVec3::new(0.5, y, z));
+        let occluders = Occluders::from_polygons(&[&wall], 1e-6);
+        let pieces = occluders.visible_part(DVec3::ZERO, &lamp, DVec3::NEG_Y).unwrap_or_default();
+        let area = |p: &Polygon| crate::scene::area_vector(p).length();
+        pieces.iter().map(area).sum::<f64>() / area(&Polygon::from_slice(&lamp))
+    }
+
+    #[test]
+    fn wall_hides_what_it_reaches_up_to_and_nothing_from_an_eye_at_its_top() {
+        assert!((seen_past(0.0) - 1.0).abs() < 1e-12, "{}", seen_past(0.0));
+        assert!((seen_past(1.0) - 1.0).abs() < 1e-12, "{}", seen_past(1.0));
+        assert!((seen_past(1.25) - 0.9).abs() < 1e-12, "{}", seen_past(1.25));
+        assert!((seen_past(2.0) - 0.75).abs() < 1e-12, "{}", seen_past(2.0));
+    }
+}
