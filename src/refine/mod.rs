@@ -9,7 +9,7 @@ mod lines;
 use smallvec::SmallVec;
 
 use crate::colour::Rgb;
-use crate::mesh::{ElementId, Mesh, Middle, Reason, Split, Vertex, VertexId};
+use crate::mesh::{Element, ElementId, Mesh, Middle, Reason, Split, Vertex, VertexId};
 use crate::settings::Settings;
 
 /// A halved quadrilateral may become this much longer than wide; its triangles then keep 11° and more.
@@ -25,6 +25,9 @@ const PLAIN_SIZE: f64 = 0.02;
 /// The least and the most that size counts for. In between, allowed errors are as one over the size of
 /// elements, so that all have the same share in the squared error: the least in all for their number.
 const SIZE_RANGE: [f64; 2] = [0.1, 5.0];
+
+/// Elements of less than this share of the square of the shortest side are not divided.
+const LEAST_AREA: f64 = 0.25;
 
 /// Light straight from emitters is held to this share of the tolerance: it has the edges that eyes look
 /// for, and costs little to evaluate.
@@ -82,7 +85,10 @@ impl Oracle {
     /// True if an element may be divided at all.
     pub fn may_divide(&self, mesh: &Mesh, element: ElementId) -> bool {
         let [width, height] = mesh.sides(element);
-        mesh[element].level < self.max_level && width.max(height) >= 2.0 * self.min_element
+        let Element { level, area, .. } = mesh[element];
+        // Slivers gain nothing by being shorter.
+        let is_wide = area >= LEAST_AREA * self.min_element.powi(2);
+        level < self.max_level && is_wide && width.max(height) >= 2.0 * self.min_element
     }
 
     /// How to divide an element, by the `light` (W/m² of radiosity) known at its corners and middle, and by

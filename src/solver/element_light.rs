@@ -78,8 +78,9 @@ fn pull(mesh: &Mesh, leaf: impl Fn(ElementId) -> Rgb) -> Vec<Rgb> {
         values[index] = if element.is_leaf() {
             leaf(ElementId(index as u32))
         } else {
-            let part =
-                |child: &ElementId| values[child.index()] * (mesh[*child].area / element.area);
+            // Of nothing, the mean is nothing.
+            let area = element.area.max(f64::MIN_POSITIVE);
+            let part = |child: &ElementId| values[child.index()] * (mesh[*child].area / area);
             element.children.iter().map(part).sum()
         };
     }

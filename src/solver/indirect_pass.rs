@@ -105,5 +105,6 @@ fn along_edges(mesh: &Mesh, corners: &[VertexId], middles: &[VertexId], vertex: 
     let gap = |half: &[VertexId; 2]| distance(half.map(|v| at(v).0), place);
     let nearest = halves.min_by(|a, b| gap(a).total_cmp(&gap(b)));
     let [(a, from), (b, to)] = nearest.unwrap_or([corners[0]; 2]).map(at);
-    from.lerp(to, a.distance(place) / a.distance(b).max(f64::MIN_POSITIVE))
+    // Ends that were welded are at no distance.
+    from.lerp(to, (a.distance(place) / a.distance(b).max(f64::MIN_POSITIVE)).min(1.0))
 }
