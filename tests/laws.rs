@@ -146,7 +146,8 @@ fn light_does_not_depend_on_which_way_the_scene_is_turned() {
     let settings = Settings { patch_size, min_element, ..coarse() };
     let here = mesh_of(&scene, &settings);
     let there = mesh_of(&moved(&scene, |p| rotation * p), &settings);
-    assert_alike(&here, &there, 0.15);
+    // Errors count by size as a share of the scene's extent, which turns with its bounding box.
+    assert_alike(&here, &there, 0.2);
 }
 
 #[test]

@@ -65,7 +65,8 @@ impl Known {
         let inverse = moments.try_inverse()?;
         let by_channel = sums.map(|sum| inverse * sum / (size * size));
         let curvature = [0, 1, 2].map(|k| Rgb::from_array(by_channel.map(|c| c[k])));
-        Some(Self { curvature: Curvature(curvature), range })
+        let is_known = curvature.iter().all(|c| c.is_finite());
+        is_known.then_some(Self { curvature: Curvature(curvature), range })
     }
 
     /// What each corner of a triangle has a share in: the integral of what interpolation lacks times the
