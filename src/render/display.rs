@@ -37,7 +37,7 @@ impl Display {
 }
 
 /// The picture in 8-bit sRGB, with its lines and, below it, the legend of its view.
-pub(super) fn displayed(picture: &Picture, display: &Display) -> RgbImage {
+pub fn displayed(picture: &Picture, display: &Display) -> RgbImage {
     let exposed = |index: usize| -> Rgb {
         let radiosity = picture.values[index].as_dvec3() * PI;
         coded(tone_map(radiosity * display.scale))

@@ -22,7 +22,7 @@ mod tracer;
 mod view;
 
 pub use automatic_camera::automatic_camera;
-pub use display::Display;
+pub use display::{Display, displayed};
 pub use picture::{Picture, RenderOptions, Subject, render, render_solved};
 pub use save::{check_writable, save};
 pub use shade::Solved;
