@@ -1,8 +1,6 @@
 //! Shadows that are hard for meshes: each scene as its mesh, as its solution, and with direct light
 //! gathered again at every pixel, side by side.
 
-mod common;
-
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -12,7 +10,7 @@ use image::imageops::replace;
 use radiosity::render::{self, Display, RenderOptions, Solved, Subject, View};
 use radiosity::scene::{Camera, LoadOptions};
 use radiosity::tone::{Exposure, exposure_scale};
-use radiosity::{Settings, load, surfaces_of};
+use radiosity::{Settings, load, reconstruct, solve, surfaces_of};
 
 /// A scene, and where it is seen from and where to, m.
 const SCENES: [(&str, DVec3, DVec3); 5] = [
@@ -31,7 +29,8 @@ fn main() -> radiosity::Result<()> {
         let path = format!("scenes/{name}.obj");
         let surfaces = surfaces_of(&load(Path::new(&path), &LoadOptions::default())?);
         let settings = Settings::medium();
-        let (solution, mesh) = common::lit(&surfaces, &settings)?;
+        let solution = solve(&surfaces, &settings, |_| ControlFlow::Continue(()))?;
+        let mesh = reconstruct(&surfaces, &solution);
         let solved = Solved { surfaces: &surfaces, settings: &settings, solution: &solution };
         let subject = Subject { mesh: &mesh, solved: Some(solved) };
         let camera = Camera { name: String::new(), eye, target, up: DVec3::Y, vertical_fov: 0.8 };

@@ -1,0 +1,123 @@
+//! Laws of shadows: lines where geometry says, no small shadow overlooked, cuts that lose nothing.
+
+mod common;
+
+use common::{Block, Stage, assert_sane, coarse, mesh_of, shipped, solve};
+use glam::DVec3;
+use proptest::prelude::*;
+use radiosity::direct::Lamps;
+use radiosity::mesh::{Crossing, ElementId, Mesh, Reason, Split, Vertex};
+use radiosity::visibility::{Facet, Occluders};
+use radiosity::{Length, Scene, Settings, Surfaces, surfaces_of};
+
+/// A floor of 4 × 4 m under a square lamp of 0.2 m at 2 m, with something between.
+fn floor_with(add: impl FnOnce(&mut Stage, u32)) -> Surfaces {
+    let mut stage = Stage::default();
+    let [grey, black, light] =
+        [(0.5, 0.0), (0.0, 0.0), (0.0, 100.0)].map(|(rho, l)| stage.material(rho, l));
+    let corners = [(-2.0, -2.0), (-2.0, 2.0), (2.0, 2.0), (2.0, -2.0)];
+    stage.polygon(grey, &corners.map(|(x, z)| DVec3::new(x, 0.0, z)));
+    stage.lamp(light, DVec3::new(-0.1, 2.0, -0.1), DVec3::new(0.1, 2.0, 0.1));
+    add(&mut stage, black);
+    surfaces_of(&stage.scene)
+}
+
+/// A black square of 0.4 m at half the lamp's height.
+fn square(stage: &mut Stage, black: u32) {
+    let corners = [(-0.2, -0.2), (0.2, -0.2), (0.2, 0.2), (-0.2, 0.2)];
+    stage.polygon(black, &corners.map(|(x, z)| DVec3::new(x, 1.0, z)));
+}
+
+#[test]
+fn lines_bound_umbra_and_penumbra() {
+    let surfaces = floor_with(square);
+    let mesh = Mesh::new(&surfaces, &Settings { patch_size: Length::Metres(9.0), ..coarse() });
+    let (lamps, occluders) = (Lamps::new(&surfaces, &mesh), Occluders::new(&surfaces));
+    let floor = &mesh.patches[0];
+    let lines = lamps.lines(&occluders, Facet::new(&floor.corners, floor.normal));
+    assert!(lines.iter().flatten().all(|p| p.y.abs() < 1e-12), "lines lie on the floor");
+    // At half the height, an edge at x throws its shadow from a lamp at u to 2x - u.
+    let has = |x: f64| lines.iter().any(|line| line.iter().all(|p| (p.x - x).abs() < 1e-12));
+    for x in [-0.5, -0.3, 0.3, 0.5] {
+        assert!(has(x), "no line at {x} m");
+    }
+    assert!(!has(0.0) && !has(0.4), "lines where there is no event");
+    let reach = lines.iter().flatten().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    assert!((reach - 0.5).abs() < 1e-12, "the penumbra ends at 0.5 m, lines at {reach} m");
+}
+
+#[test]
+fn elements_are_cut_along_the_border_of_a_sharp_shadow() {
+    let surfaces = floor_with(square);
+    let settings = Settings { tolerance: 0.02, max_level: 8, ..coarse() };
+    let mesh = solve(&surfaces, &settings).mesh;
+    let place = |v: &Vertex| surfaces.list[v.surface as usize].plane.lift(v.position);
+    let places: Vec<DVec3> = mesh.vertices.iter().map(place).collect();
+    let near = |x: f64| {
+        let is_near = |p: &&DVec3| p.y == 0.0 && p.z.abs() < 0.25 && (p.x.abs() - x).abs() < 0.004;
+        places.iter().filter(is_near).count()
+    };
+    // Of the floor's own grid, no line runs there.
+    assert!(near(0.3) >= 8, "{} vertices along the umbra", near(0.3));
+}
+
+#[test]
+fn the_shadow_of_a_wire_is_not_overlooked() {
+    let wire = |stage: &mut Stage, black: u32| {
+        let size = DVec3::new(0.004, 0.6, 0.004);
+        stage.block(black, Block { base: DVec3::new(0.613, 0.0, 0.271), size, turn: 0.3 });
+    };
+    let settings =
+        Settings { tolerance: 0.02, max_level: 8, min_element: Length::Metres(0.004), ..coarse() };
+    let [without, with] = [floor_with(|_, _| ()), floor_with(wire)].map(|surfaces| {
+        let mesh = solve(&surfaces, &settings).mesh;
+        let shadowed = mesh.elements.iter().filter(|e| e.reason == Some(Reason::ShadowEdge));
+        shadowed.count()
+    });
+    assert_eq!(without, 0, "a bare floor has no shadow");
+    assert!(with > 10, "{with} elements were divided for the wire's shadow");
+}
+
+#[test]
+fn light_is_a_number_in_all_scenes_of_shadows() {
+    for name in ["pole.obj", "blind.obj", "table.obj", "coloured.obj"] {
+        let scene: Scene = shipped(name);
+        let settings = Settings { patch_size: Length::OfScene(0.1), ..coarse() };
+        let mesh = mesh_of(&scene, &settings);
+        assert_sane(&mesh);
+        let is_number = |b: &DVec3| b.is_finite() && b.min_element() >= 0.0;
+        assert!(mesh.radiosity.iter().all(is_number), "{name}");
+    }
+}
+
+fn crossing() -> impl Strategy<Value = Crossing> {
+    (0_usize..4, 0.0..1.0).prop_map(|(edge, share)| {
+        let share = if share < 0.2 { 0.0 } else { share * 0.95 };
+        Crossing { edge, share }
+    })
+}
+
+proptest! {
+    #[test]
+    fn cuts_lose_nothing(from in crossing(), to in crossing(), then in 0_usize..3) {
+        // Not along an edge.
+        let ahead = |a: Crossing, b: Crossing| {
+            let gap = (b.edge + 4 - a.edge) % 4;
+            gap > 1 || (gap == 1 && b.share > 0.0)
+        };
+        prop_assume!(ahead(from, to) && ahead(to, from));
+        let surfaces = floor_with(|_, _| ());
+        let mut mesh = Mesh::new(&surfaces, &Settings { patch_size: Length::Metres(9.0), ..coarse() });
+        let root = ElementId(0);
+        mesh.split(root, Split::Along([from, to]), Reason::ShadowEdge);
+        prop_assert_eq!(mesh[root].children.len(), 2);
+        for part in mesh[root].children.clone() {
+            let corners = &mesh[part].corners;
+            prop_assert!((3..=5).contains(&corners.len()), "{corners:?}");
+            if then == 1 {
+                mesh.split(part, mesh.round_split(part), Reason::Gradient);
+            }
+        }
+        mesh.validate();
+    }
+}
