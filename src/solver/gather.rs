@@ -19,7 +19,7 @@ use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
 
 /// Cells along the edge of the hemicubes over vertices: they measure visibility only, and vertices
 /// are many.
-const RESOLUTION: usize = 64;
+const RESOLUTION: usize = 32;
 
 /// Deepest division of a leaf seen from close by.
 const DEEPEST: u32 = 6;

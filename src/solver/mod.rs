@@ -112,7 +112,7 @@ const DARK: &str = "nothing in the scene emits light; give a material an emissio
                     (Ke in an MTL file, emissiveFactor in glTF) or the file a light";
 
 /// Gathering resolves differences down to this share of the tolerated error.
-const GATHER_SHARE: f64 = 0.1;
+const GATHER_SHARE: f64 = 0.13;
 
 /// How often light is gathered: from what the exchange left on the elements, then from what the first
 /// gathering found at their vertices. A third changed no result.
