@@ -24,6 +24,12 @@ pub struct Settings {
     /// Some(size): no refinement where the light asks for it; every element is split until its
     /// longest side is at most `size`, m.
     pub uniform: Option<f64>,
+    /// Whether elements are cut along the lines on which direct light has a kink or a bend
+    /// (default true), or only divided in halves and quarters.
+    pub discontinuity_lines: bool,
+    /// `None`, the default: what hides a lamp is cut out of it exactly. Some(n): by about n rays
+    /// (1..=4096) to each triangle of a lamp, for comparison.
+    pub shadow_rays: Option<u32>,
     /// Share of all emitted power that may be left unshot when the solver stops
     /// (1e-9..=1; default 0.001).
     pub stop: f64,
@@ -84,6 +90,8 @@ impl Settings {
             max_level: 7,
             patch_size: Length::OfScene(1.0 / 14.0),
             uniform: None,
+            discontinuity_lines: true,
+            shadow_rays: None,
             stop: 0.001,
             max_shots: None,
             solver: Method::Progressive,
@@ -125,6 +133,7 @@ impl Settings {
         in_range("max-level", f64::from(self.max_level), 0.0, 16.0)?;
         positive("patch-size", self.patch_size.number())?;
         positive("uniform", self.uniform.unwrap_or(1.0))?;
+        in_range("shadow-rays", f64::from(self.shadow_rays.unwrap_or(1)), 1.0, 4096.0)?;
         in_range("stop", self.stop, 1e-9, 1.0)?;
         check_omega(self.omega)?;
         let cells = self.hemicube_resolution;
@@ -245,6 +254,7 @@ mod tests {
                 Settings { patch_size: Length::Metres(f64::INFINITY), ..medium.clone() },
             ),
             ("uniform", Settings { uniform: Some(0.0), ..medium.clone() }),
+            ("shadow-rays", Settings { shadow_rays: Some(0), ..medium.clone() }),
             ("stop", Settings { stop: 0.0, ..medium.clone() }),
             ("omega", Settings { omega: 2.0, ..medium.clone() }),
             ("omega", Settings { omega: f64::NAN, ..medium.clone() }),

@@ -2,10 +2,11 @@
 
 mod common;
 
-use common::{Block, Stage, coarse, corners, furnished_room, mesh_of, radiosities, shipped};
+use common::{Block, Stage, coarse, corners, furnished_room, mesh_of, radiosities, shipped, solve};
 use glam::{DVec2, DVec3};
 use radiosity::direct::Lamps;
 use radiosity::mesh::Mesh;
+use radiosity::surface::polygon::edges;
 use radiosity::visibility::Occluders;
 use radiosity::{Length, Scene, Settings, TriMesh, surfaces_of};
 
@@ -124,6 +125,41 @@ fn an_adaptive_mesh_needs_less_than_half_the_triangles_where_shadows_are_sharp()
     let [adaptive, uniform] = contest(&sharp_shadow(), 0.05, 0.05);
     assert!(2 * adaptive.1 <= uniform.1, "{adaptive:?} against {uniform:?}");
     assert!(adaptive.0 <= uniform.0, "{adaptive:?} against {uniform:?}");
+}
+
+/// Whether all elements of the blocker's floor are rectangles along its borders.
+fn is_quadtree(settings: &Settings) -> bool {
+    let surfaces = surfaces_of(&shipped("blocker.obj"));
+    let mesh = solve(&surfaces, settings).mesh;
+    let outlines = mesh.leaves().map(|leaf| (mesh.surface_of(leaf), mesh.outline(leaf)));
+    let along = |[a, b]: [DVec2; 2]| (b - a).abs().min_element() < 1e-9;
+    let mut floor = outlines.filter(|&(surface, _)| surfaces.list[surface].plane.origin.y == 0.0);
+    floor.all(|(_, outline)| outline.len() == 4 && edges(&outline).all(along))
+}
+
+#[test]
+fn elements_are_cut_askew_along_discontinuity_lines_only() {
+    let without = Settings { discontinuity_lines: false, ..adaptive(0.1) };
+    assert!(is_quadtree(&without) && !is_quadtree(&adaptive(0.1)));
+}
+
+#[test]
+fn more_rays_to_a_lamp_come_closer_to_its_exact_light() {
+    let surfaces = surfaces_of(&shipped("blocker.obj"));
+    let exact = Lamps::new(&surfaces, &Mesh::new(&surfaces, &coarse()));
+    let occluders = Occluders::new(&surfaces);
+    let shine = |lamps: &Lamps, place: DVec2| {
+        lamps.shine(&occluders, DVec3::new(place.x, 0.0, place.y), DVec3::Y).irradiance.x
+    };
+    let error = |rays: u32| {
+        let sampled = exact.clone().seen_by(Some(rays));
+        let difference = |place| (shine(&sampled, place) - shine(&exact, place)).powi(2);
+        let places = places(DVec2::splat(-1.2), DVec2::splat(1.2), 500);
+        (places.map(difference).sum::<f64>() / 500.0).sqrt()
+    };
+    let errors = [4, 64, 1024].map(error);
+    assert!(errors[2] > 0.0, "rays see no exact light");
+    assert!(errors.windows(2).all(|pair| pair[1] < 0.5 * pair[0]), "{errors:?} W/m²");
 }
 
 #[test]

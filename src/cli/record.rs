@@ -16,6 +16,8 @@ pub(crate) struct SettingsRecord {
     max_level: u32,
     patch_size: f64,
     uniform: Option<f64>,
+    discontinuity_lines: bool,
+    shadow_rays: Option<u32>,
     stop: f64,
     max_shots: Option<usize>,
     solver: &'static str,
@@ -33,6 +35,8 @@ impl SettingsRecord {
             max_level: settings.max_level,
             patch_size: metres(settings.patch_size),
             uniform: settings.uniform,
+            discontinuity_lines: settings.discontinuity_lines,
+            shadow_rays: settings.shadow_rays,
             stop: settings.stop,
             max_shots: settings.max_shots,
             solver: settings.solver.name(),
@@ -49,6 +53,12 @@ impl Display for SettingsRecord {
         match self.uniform {
             Some(size) => write!(f, "uniform {size} m, ")?,
             None => write!(f, "elements from {min_element:.4} m, level {max_level}, ")?,
+        }
+        if !self.discontinuity_lines {
+            write!(f, "no discontinuity lines, ")?;
+        }
+        if let Some(rays) = self.shadow_rays {
+            write!(f, "{rays} rays to a lamp's triangle, ")?;
         }
         write!(f, "patches up to {patch_size:.4} m, hemicubes of {}, ", self.hemicube_resolution)?;
         write!(f, "{}, omega {}", self.solver, self.omega)

@@ -23,6 +23,8 @@ use punctual::Source;
 pub struct Lamps {
     areas: Vec<AreaLamp>,
     points: Vec<Light>,
+    /// Rows of cells to each triangle of a light that is always sampled.
+    rows: Option<u32>,
 }
 
 /// A convex polygon that emits from its front.
@@ -59,7 +61,15 @@ impl Lamps {
             }
         }
         areas.retain(|lamp| lamp.exitance.max_element() > 0.0);
-        Self { areas, points: surfaces.lights.clone() }
+        Self { areas, points: surfaces.lights.clone(), rows: None }
+    }
+
+    /// With [`Settings::shadow_rays`](crate::Settings::shadow_rays): what hides a polygon is found by about
+    /// that many rays to each of its triangles, one through each of equal cells, instead of exactly.
+    #[must_use]
+    pub fn seen_by(self, rays: Option<u32>) -> Self {
+        let rows = rays.map(|rays| f64::from(rays).sqrt().round().max(1.0) as u32);
+        Self { rows, ..self }
     }
 
     /// True if there is no light at all.
@@ -74,7 +84,11 @@ impl Lamps {
             let unoccluded = lamp.reach(place, normal);
             if !unoccluded.is_empty() {
                 let all = point_to_polygon_above(place, normal, &unoccluded);
-                let seen = lamp.seen(occluders, (place, normal), &unoccluded).min(all);
+                let seen = match self.rows {
+                    Some(rows) => sampled(occluders, (place, normal), &unoccluded, rows),
+                    None => lamp.seen(occluders, (place, normal), &unoccluded),
+                };
+                let seen = seen.min(all);
                 light.unoccluded += lamp.exitance * all;
                 light.irradiance += lamp.exitance * seen;
             }
@@ -126,7 +140,7 @@ impl AreaLamp {
     fn seen(&self, occluders: &Occluders, (place, normal): (DVec3, DVec3), above: &[DVec3]) -> f64 {
         let exact = occluders.visible_part(place, above, self.front.normal);
         exact.map_or_else(
-            || sampled(occluders, (place, normal), above),
+            || sampled(occluders, (place, normal), above, STRATA),
             |pieces: Pieces| {
                 pieces.iter().map(|piece| point_to_polygon_above(place, normal, piece)).sum()
             },
@@ -134,21 +148,26 @@ impl AreaLamp {
     }
 }
 
-/// Cells along an edge of each triangle of a light that is sampled.
+/// Cells along an edge of each triangle of a light where exact cutting has given up.
 const STRATA: u32 = 12;
 
-/// The visible part's form factor by a ray to each cell of the polygon: the fallback where much
-/// stands in between.
-fn sampled(occluders: &Occluders, (place, normal): (DVec3, DVec3), polygon: &[DVec3]) -> f64 {
+/// The visible part's form factor by a ray to each of the cells in this many rows on each triangle of the
+/// polygon: the fallback where much stands in between.
+fn sampled(
+    occluders: &Occluders,
+    (place, normal): (DVec3, DVec3),
+    polygon: &[DVec3],
+    rows: u32,
+) -> f64 {
     let mut sum = 0.0;
     for k in 1..polygon.len() - 1 {
         let [a, b, c] = [polygon[0], polygon[k], polygon[k + 1]];
-        let (u, v) = ((b - a) / f64::from(STRATA), (c - a) / f64::from(STRATA));
-        for row in 0..STRATA {
-            for column in 0..STRATA - row {
+        let (u, v) = ((b - a) / f64::from(rows), (c - a) / f64::from(rows));
+        for row in 0..rows {
+            for column in 0..rows - row {
                 let corner = a + u * f64::from(column) + v * f64::from(row);
                 let mut cells = vec![[corner, corner + u, corner + v]];
-                if column + row + 1 < STRATA {
+                if column + row + 1 < rows {
                     cells.push([corner + u, corner + u + v, corner + v]);
                 }
                 for cell in cells {

@@ -59,7 +59,11 @@ pub(super) fn refine(
         return;
     }
     let oracle = Oracle::of_direct_light(settings, world.surfaces.extent, mean_radiosity(mesh));
-    let lines = discontinuities(world, mesh);
+    let lines = if settings.discontinuity_lines {
+        discontinuities(world, mesh)
+    } else {
+        vec![Vec::new(); mesh.patches.len()]
+    };
     let mut candidates: Vec<ElementId> = mesh.leaves().collect();
     for level in 0..settings.max_level {
         let share = f64::from(level) / f64::from(settings.max_level);

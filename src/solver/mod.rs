@@ -135,7 +135,7 @@ pub fn solve(
     let mut mesh = Mesh::new(surfaces, settings);
     check_reflectances(surfaces, &mesh)?;
     let occluders = Occluders::new(surfaces);
-    let lamps = Lamps::new(surfaces, &mesh);
+    let lamps = Lamps::new(surfaces, &mesh).seen_by(settings.shadow_rays);
     if lamps.is_empty() {
         return Err(Error::Scene(DARK.to_owned()));
     }

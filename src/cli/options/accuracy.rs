@@ -37,6 +37,18 @@ pub(crate) struct AccuracyOptions {
     #[arg(long, value_name = "METRES", value_parser = values::number)]
     uniform: Option<f64>,
 
+    /// Divide elements in halves and quarters only, not along the borders of penumbrae
+    ///
+    /// For comparison.
+    #[arg(long)]
+    no_discontinuity_lines: bool,
+
+    /// See lamps by about so many rays to each of their triangles, not exactly (1 to 4096)
+    ///
+    /// For comparison: exact light has no noise.
+    #[arg(long, value_name = "N")]
+    shadow_rays: Option<u32>,
+
     /// Longest side of a patch, in metres (default: 1/14 of the scene)
     ///
     /// Reflected light is carried between patches: smaller is more accurate and slower.
@@ -117,6 +129,8 @@ impl AccuracyOptions {
             max_level: self.max_level.unwrap_or(preset.max_level),
             patch_size: or_preset(self.patch_size, preset.patch_size),
             uniform: self.uniform,
+            discontinuity_lines: !self.no_discontinuity_lines,
+            shadow_rays: self.shadow_rays,
             stop: self.stop.unwrap_or(preset.stop),
             max_shots: self.max_shots,
             solver: self.solver.into(),
