@@ -25,7 +25,7 @@ const GOAL: f64 = 0.02;
 /// Rays to each triangle of a lamp where its light is not exact.
 const RAYS: u32 = 16;
 
-const TOLERANCES: [f64; 6] = [0.32, 0.16, 0.08, 0.04, 0.02, 0.01];
+const TOLERANCES: [f64; 7] = [1.0, 0.64, 0.32, 0.16, 0.08, 0.04, 0.02];
 
 /// What a mesh is made with.
 struct Stage {
@@ -60,7 +60,7 @@ const STAGES: [Stage; 6] = [
 fn main() -> radiosity::Result<()> {
     // Uniform elements are at most the extent over these long.
     contest("scenes/blocker.obj", &[14.0, 28.0, 56.0, 112.0])?;
-    contest("scenes/cornell-box.obj", &[14.0, 28.0, 56.0, 112.0])
+    contest("scenes/cornell-box.obj", &[14.0, 28.0, 56.0])
 }
 
 fn contest(path: &str, divisions: &[f64]) -> radiosity::Result<()> {

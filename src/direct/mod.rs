@@ -64,7 +64,7 @@ impl Lamps {
         Self { areas, points: surfaces.lights.clone(), rows: None }
     }
 
-    /// With [`Settings::shadow_rays`](crate::Settings::shadow_rays): what hides a polygon is found by about
+    /// With [`Settings::shadow_rays`](crate::settings::Settings::shadow_rays): what hides a polygon is found by about
     /// that many rays to each of its triangles, one through each of equal cells, instead of exactly.
     #[must_use]
     pub fn seen_by(self, rays: Option<u32>) -> Self {
