@@ -10,6 +10,9 @@ use radiosity::mesh::{Crossing, ElementId, Mesh, Reason, Split, Vertex};
 use radiosity::visibility::{Facet, Occluders};
 use radiosity::{Length, Scene, Settings, Surfaces, surfaces_of};
 
+/// Rays to each triangle of a lamp.
+const RAYS: u32 = 4096;
+
 /// A floor of 4 × 4 m under a square lamp of 0.2 m at 2 m, with something between.
 fn floor_with(add: impl FnOnce(&mut Stage, u32)) -> Surfaces {
     let mut stage = Stage::default();
@@ -87,6 +90,31 @@ fn light_is_a_number_in_all_scenes_of_shadows() {
         assert_sane(&mesh);
         let is_number = |b: &DVec3| b.is_finite() && b.min_element() >= 0.0;
         assert!(mesh.radiosity.iter().all(is_number), "{name}");
+    }
+}
+
+#[test]
+fn exact_direct_light_is_what_many_rays_find() {
+    for name in ["cornell-box.obj", "two-rooms.obj", "office.obj"] {
+        let surfaces = surfaces_of(&shipped(name));
+        let mesh = Mesh::new(&surfaces, &coarse());
+        let occluders = Occluders::new(&surfaces);
+        let lamps = Lamps::new(&surfaces, &mesh);
+        let by_rays = lamps.clone().seen_by(Some(RAYS));
+        let lit = mesh.patches.iter().filter_map(|patch| {
+            let centre = patch.corners.iter().sum::<DVec3>() / patch.corners.len() as f64;
+            let [exact, sampled] =
+                [&lamps, &by_rays].map(|lamps| lamps.shine(&occluders, centre, patch.normal));
+            let all = exact.unoccluded.element_sum();
+            let error = (exact.irradiance - sampled.irradiance).element_sum().abs();
+            (all > 0.0).then_some(error / all)
+        });
+        let errors: Vec<f64> = lit.collect();
+        let worst = errors.iter().copied().fold(0.0, f64::max);
+        let mean = errors.iter().sum::<f64>() / errors.len() as f64;
+        // Rays err where cells of the lamp straddle a shadow's border.
+        assert!(errors.len() > 50, "{name}: {} places are lit", errors.len());
+        assert!(mean < 1e-3 && worst < 0.02, "{name}: {mean}, {worst} at worst");
     }
 }
 
