@@ -31,7 +31,7 @@ fn main() -> radiosity::Result<()> {
     let display = Display::exposed(exposure_scale(&truth, Exposure::Automatic));
 
     let uniform = Settings { uniform: Some(0.1), ..Settings::medium() };
-    let adaptive = Settings { tolerance: 0.0065, ..Settings::medium() };
+    let adaptive = Settings { tolerance: 0.023, ..Settings::medium() };
     for (name, settings) in [("uniform", uniform), ("adaptive", adaptive)] {
         let (solution, mesh) = common::lit(&surfaces, &settings)?;
         let elements = solution.mesh.leaves().count();

@@ -21,7 +21,7 @@ fn main() -> radiosity::Result<()> {
 
     let patches = |metres, settings| Settings { patch_size: Length::Metres(metres), ..settings };
     let undivided = Settings { max_level: 0, ..Settings::medium() };
-    let divided = Settings { tolerance: 0.15, ..Settings::medium() };
+    let divided = Settings { tolerance: 0.35, ..Settings::medium() };
     for (name, settings) in [
         ("few", patches(0.135, undivided.clone())),
         ("many", patches(0.047, undivided)),
