@@ -219,7 +219,7 @@ fn inner_corners(surface: &Surface) -> impl Iterator<Item = Segment> + '_ {
 
 /// Indices of the segments that come near a convex polygon.
 fn touching(segments: &[Segment], outline: &[DVec2], tolerance: f64) -> SmallVec<[u32; 4]> {
-    let borders: Vec<_> = polygon::edges(outline).map(polygon::Line::through).collect();
+    let borders = polygon::borders(outline);
     let near = |&(_, [a, b]): &(usize, &Segment)| {
         borders.iter().all(|line| line.side(*a, 0.0).max(line.side(*b, 0.0)) >= -2.0 * tolerance)
     };

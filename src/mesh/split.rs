@@ -143,32 +143,32 @@ impl Mesh {
     }
 
     fn parts(&mut self, element: ElementId, split: Split) -> SmallVec<[Corners; 4]> {
-        if let Split::Along(crossings) = split {
-            return self.parts_along(element, crossings);
-        }
-        let Middle { edges: m, centre } = self.middle(element);
-        let c = self[element].corners.clone();
-        let n = c.len();
         match split {
-            Split::Along(_) => unreachable!(),
-            Split::Halves(k) => {
-                assert_eq!(n, 4, "only quadrilaterals are halved");
-                let [a, b, d, e] = [k, k + 1, (k + 2) % 4, (k + 3) % 4];
-                let halves = [[c[a], m[a], m[d], c[e]], [m[a], c[b], c[d], m[d]]];
-                halves.into_iter().map(Corners::from).collect()
-            }
-            Split::Quarters if n == 3 => {
-                let quarters = [
-                    [c[0], m[0], m[2]],
-                    [m[0], c[1], m[1]],
-                    [m[2], m[1], c[2]],
-                    [m[0], m[1], m[2]],
-                ];
-                quarters.iter().map(|q| Corners::from_slice(q)).collect()
-            }
-            Split::Quarters => {
-                (0..n).map(|k| Corners::from([c[k], m[k], centre, m[(k + n - 1) % n]])).collect()
-            }
+            Split::Quarters => self.quarters(element),
+            Split::Halves(k) => self.halves(element, k),
+            Split::Along(crossings) => self.parts_along(element, crossings),
         }
+    }
+
+    fn halves(&mut self, element: ElementId, k: usize) -> SmallVec<[Corners; 4]> {
+        let Middle { edges: m, .. } = self.middle(element);
+        let c = &self[element].corners;
+        assert_eq!(c.len(), 4, "only quadrilaterals are halved");
+        let [a, b, d, e] = [k, k + 1, (k + 2) % 4, (k + 3) % 4];
+        let halves = [[c[a], m[a], m[d], c[e]], [m[a], c[b], c[d], m[d]]];
+        halves.into_iter().map(Corners::from).collect()
+    }
+
+    fn quarters(&mut self, element: ElementId) -> SmallVec<[Corners; 4]> {
+        let Middle { edges: m, centre } = self.middle(element);
+        let c = &self[element].corners;
+        let n = c.len();
+        if n > 3 {
+            let quarter = |k: usize| [c[k], m[k], centre, m[(k + n - 1) % n]];
+            return (0..n).map(|k| Corners::from(quarter(k))).collect();
+        }
+        let quarters =
+            [[c[0], m[0], m[2]], [m[0], c[1], m[1]], [m[2], m[1], c[2]], [m[0], m[1], m[2]]];
+        quarters.iter().map(|quarter| Corners::from_slice(quarter)).collect()
     }
 }

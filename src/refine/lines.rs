@@ -57,15 +57,16 @@ pub fn discontinuities(
         return Vec::new();
     }
     let outline: Convex = patch.corners.iter().map(|&p| plane.flatten(p)).collect();
-    let borders = borders(&outline);
+    let borders = polygon::borders(&outline);
     let lines = lamps.lines(occluders, Facet::new(&patch.corners, patch.normal));
     let light = |place: DVec2| {
         let Plane { normal, .. } = *plane;
         strength(patch.reflectance * lamps.shine(occluders, plane.lift(place), normal).irradiance)
     };
     let flat = |line: [DVec3; 2]| line.map(|p| plane.flatten(p));
-    let inside =
-        lines.into_iter().filter_map(|line| clipped(flat(line), &borders, surfaces.tolerance));
+    let inside = lines
+        .into_iter()
+        .filter_map(|line| polygon::clip(flat(line), &borders, surfaces.tolerance));
     let step = STEP * patch.area.sqrt();
     let weighed = joined(inside, surfaces.tolerance).into_iter();
     let weighed = weighed.filter_map(|segment| weigh(segment, &borders, step, light));
@@ -135,9 +136,9 @@ pub fn cut(
     tolerance: f64,
 ) -> Option<Split> {
     let outline = mesh.outline(element);
-    let (borders, area) = (borders(&outline), polygon::area(&outline));
+    let (borders, area) = (polygon::borders(&outline), polygon::area(&outline));
     let carried = |line: &Discontinuity| {
-        let [from, to] = clipped(line.segment, &borders, tolerance)?;
+        let [from, to] = polygon::clip(line.segment, &borders, tolerance)?;
         let chord = Chord::new(&outline, &Line::through(line.segment), tolerance)?;
         let share = from.distance(to) / chord.length;
         if share < LEAST_SHARE || chord.least_part < LEAST_PART {
@@ -202,16 +203,4 @@ fn sine(outline: &Convex, end: Crossing, along: DVec2) -> f64 {
     };
     let here = angle(end.edge);
     if end.share == 0.0 { here.min(angle(end.edge + n - 1)) } else { here }
-}
-
-/// The part of a segment to the left of all lines.
-fn clipped(segment: Segment, borders: &[Line], tolerance: f64) -> Option<Segment> {
-    let inside =
-        borders.iter().try_fold(segment, |part, line| line.split_segment(part, tolerance)[0]);
-    inside.filter(|[a, b]| a.distance(*b) > tolerance)
-}
-
-/// Lines along the edges of a convex polygon, which is to their left.
-fn borders(outline: &Convex) -> SmallVec<[Line; 8]> {
-    polygon::edges(outline).map(Line::through).collect()
 }

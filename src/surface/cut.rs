@@ -5,7 +5,9 @@
 
 use glam::DVec2;
 
-use super::polygon::{Convex, Line, Ring, Segment, bounds, centroid, contains, edges};
+use super::polygon::{
+    Convex, Line, Ring, Segment, borders, bounds, centroid, clip, contains, edges,
+};
 
 /// How a region is cut.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +48,7 @@ pub fn convex_pieces(rings: &[Ring], cuts: &Cuts<'_>) -> Vec<Convex> {
 impl Cell {
     /// Keeps of the segments what is inside.
     fn new(polygon: Convex, segments: impl Iterator<Item = Segment>, tolerance: f64) -> Self {
-        let borders: Vec<Line> = edges(&polygon).map(Line::through).collect();
+        let borders = borders(&polygon);
         let segments = segments.filter_map(|s| clip(s, &borders, tolerance)).collect();
         Self { polygon, segments }
     }
@@ -62,13 +64,6 @@ impl Cell {
         });
         parts.into_iter().flatten()
     }
-}
-
-/// The part of a segment strictly to the left of all lines.
-fn clip(segment: Segment, lines: &[Line], tolerance: f64) -> Option<Segment> {
-    let inside =
-        lines.iter().try_fold(segment, |part, line| line.split_segment(part, tolerance)[0]);
-    inside.filter(|[a, b]| a.distance(*b) > tolerance)
 }
 
 /// The line of an even grid that divides a cell that is too large, moved onto a parallel segment if
@@ -153,7 +148,7 @@ mod tests {
         let segment = [DVec2::new(0.1, 0.2), DVec2::new(2.6, 0.45)];
         let cuts = Cuts { segments: &[segment], size: 10.0, tolerance: 1e-9 };
         for piece in convex_pieces(&region_with_hole(), &cuts) {
-            let borders: Vec<Line> = edges(&piece).map(Line::through).collect();
+            let borders = borders(&piece);
             assert!(clip(segment, &borders, 1e-7).is_none(), "{piece:?} is cut by the segment");
             assert!(distance(segment, piece[0]).is_finite());
         }

@@ -39,6 +39,18 @@ pub fn edges(ring: &[DVec2]) -> impl Iterator<Item = Segment> + '_ {
     ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| [a, b])
 }
 
+/// Lines along the edges of a convex polygon, which is to their left.
+pub fn borders(polygon: &[DVec2]) -> SmallVec<[Line; 8]> {
+    edges(polygon).map(Line::through).collect()
+}
+
+/// The part of a segment strictly to the left of all lines.
+pub fn clip(segment: Segment, lines: &[Line], tolerance: f64) -> Option<Segment> {
+    let inside =
+        lines.iter().try_fold(segment, |part, line| line.split_segment(part, tolerance)[0]);
+    inside.filter(|[a, b]| a.distance(*b) > tolerance)
+}
+
 /// Smallest and largest coordinates of some points.
 pub fn bounds<'a>(points: impl IntoIterator<Item = &'a DVec2>) -> [DVec2; 2] {
     let empty = [DVec2::INFINITY, DVec2::NEG_INFINITY];

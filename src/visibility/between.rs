@@ -41,21 +41,16 @@ impl Occluders {
 
     /// The occluders of which a part stands between two polygons that face each other, as wholes.
     pub fn polygons_between(&self, a: Facet<'_>, b: Facet<'_>) -> impl Iterator<Item = &[DVec3]> {
-        let hull = hull(a, b, self.tolerance);
-        let near = self.near(a, b).into_iter().map(|index| &self.polygons[index as usize]);
+        let near = self.near(a, b);
+        let hull = if near.is_empty() { SmallVec::new() } else { hull(a, b, self.tolerance) };
+        let near = near.into_iter().map(|index| &self.polygons[index as usize]);
         let stands = move |occluder: &&Occluder| inside(occluder, &hull, self.tolerance).is_some();
         near.filter(stands).map(|occluder| occluder.corners.as_slice())
     }
 
     /// True if nothing stands between two polygons that face each other.
     pub fn is_clear(&self, a: Facet<'_>, b: Facet<'_>) -> bool {
-        let near = self.near(a, b);
-        if near.is_empty() {
-            return true;
-        }
-        let hull = hull(a, b, self.tolerance);
-        let stands = |&index: &u32| inside(&self.polygons[index as usize], &hull, self.tolerance);
-        near.iter().all(|index| stands(index).is_none())
+        self.polygons_between(a, b).next().is_none()
     }
 
     /// The occluders of which something is in the box around two polygons and in front of both.

@@ -5,6 +5,7 @@ use smallvec::SmallVec;
 
 use super::clip::{Facet, HalfSpace, Polygon};
 use super::{Occluder, Pieces};
+use crate::surface::polygon::area;
 
 /// A convex polygon in the source's plane, m.
 type Flat = SmallVec<[DVec2; 8]>;
@@ -99,7 +100,7 @@ impl Seen {
                 }
             }
         }
-        (front.len() >= 3).then(|| Shadow { sides, area: area(&on_source) })
+        (front.len() >= 3).then(|| Shadow { sides, area: area(&on_source).abs() })
     }
 
     /// The half space of the eye and an edge, in the source's plane; an edge that points at the eye
@@ -193,12 +194,6 @@ impl Side {
             (corner, from) = (next, to);
         }
     }
-}
-
-fn area(polygon: &[DVec2]) -> f64 {
-    let from = polygon[0];
-    let fan = polygon.windows(2).map(|pair| (pair[0] - from).perp_dot(pair[1] - from));
-    fan.sum::<f64>().abs() / 2.0
 }
 
 #[cfg(test)]
