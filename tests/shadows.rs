@@ -5,9 +5,9 @@ mod common;
 use common::{Block, Stage, assert_sane, coarse, mesh_of, shipped, solve};
 use glam::DVec3;
 use proptest::prelude::*;
-use radiosity::direct::Lamps;
-use radiosity::mesh::{Crossing, ElementId, Mesh, Reason, Split, Vertex};
-use radiosity::visibility::{Facet, Occluders};
+use radiosity::direct::{Lamps, PatchLight};
+use radiosity::mesh::{Crossing, ElementId, Mesh, PatchId, Reason, Split, Vertex};
+use radiosity::visibility::Occluders;
 use radiosity::{Length, Scene, Settings, Surfaces, surfaces_of};
 
 /// A floor of 4 × 4 m under a square lamp of 0.2 m at 2 m, with something between.
@@ -33,8 +33,8 @@ fn lines_bound_umbra_and_penumbra() {
     let surfaces = floor_with(square);
     let mesh = Mesh::new(&surfaces, &Settings { patch_size: Length::Metres(9.0), ..coarse() });
     let (lamps, occluders) = (Lamps::new(&surfaces, &mesh), Occluders::new(&surfaces));
-    let floor = &mesh.patches[0];
-    let lines = lamps.lines(&occluders, Facet::new(&floor.corners, floor.normal));
+    let lines = PatchLight::new(lamps, occluders, &mesh).lines(PatchId(0));
+    let lines: Vec<[DVec3; 2]> = lines.iter().map(|line| line.ends).collect();
     assert!(lines.iter().flatten().all(|p| p.y.abs() < 1e-12), "lines lie on the floor");
     // At half the height, an edge at x throws its shadow from a lamp at u to 2x - u.
     let has = |x: f64| lines.iter().any(|line| line.iter().all(|p| (p.x - x).abs() < 1e-12));
@@ -71,7 +71,8 @@ fn the_shadow_of_a_wire_is_not_overlooked() {
         Settings { tolerance: 0.02, max_level: 8, min_element: Length::Metres(0.004), ..coarse() };
     let [without, with] = [floor_with(|_, _| ()), floor_with(wire)].map(|surfaces| {
         let mesh = solve(&surfaces, &settings).mesh;
-        let shadowed = mesh.elements.iter().filter(|e| e.reason == Some(Reason::ShadowEdge));
+        let by_shadow = [Some(Reason::ShadowEdge), Some(Reason::Discontinuity)];
+        let shadowed = mesh.elements.iter().filter(|e| by_shadow.contains(&e.reason));
         shadowed.count()
     });
     assert_eq!(without, 0, "a bare floor has no shadow");

@@ -37,6 +37,7 @@ pub(crate) struct Summary {
 struct Divided {
     uniform: usize,
     gradient: usize,
+    discontinuity: usize,
     shadow_edge: usize,
     contact: usize,
 }
@@ -108,6 +109,7 @@ impl Divided {
                 Reason::Gradient => &mut divided.gradient,
                 Reason::ShadowEdge => &mut divided.shadow_edge,
                 Reason::Contact => &mut divided.contact,
+                Reason::Discontinuity => &mut divided.discontinuity,
             } += 1;
         }
         divided
@@ -139,8 +141,12 @@ impl Display for Outcome {
         writeln!(f, "elements   {}, {} leaves", s.elements, s.leaves)?;
         writeln!(
             f,
-            "divided    gradient {}, shadow edge {}, contact {}, uniform {}",
-            divided.gradient, divided.shadow_edge, divided.contact, divided.uniform
+            "divided    gradient {}, shadow edge {}, discontinuity line {}, contact {}, uniform {}",
+            divided.gradient,
+            divided.shadow_edge,
+            divided.discontinuity,
+            divided.contact,
+            divided.uniform
         )?;
         writeln!(f, "mesh       {} triangles, {} vertices", s.triangles, s.vertices)?;
         writeln!(f, "shots      {}", s.shots)?;

@@ -14,34 +14,38 @@
 
 use glam::DVec3;
 
-use super::{AreaLamp, Lamps};
-use crate::visibility::{Facet, HalfSpace, Occluders};
+use super::AreaLamp;
+use crate::visibility::{Facet, HalfSpace};
 
 /// An edge as high over the receiver as this share of the lamp's corner throws no shadow worth a line:
 /// it would be very far away.
 const HIGHEST: f64 = 0.999;
 
-impl Lamps {
-    /// Segments in the plane of a receiver, m, on which its irradiance by polygons may have a kink or
-    /// a bend; they may reach beyond the receiver.
-    pub fn lines(&self, occluders: &Occluders, receiver: Facet<'_>) -> Vec<[DVec3; 2]> {
-        let mut lines = Vec::new();
-        for lamp in &self.areas {
-            let above = receiver.plane.clip(&lamp.corners);
-            let faces = receiver.corners.iter().any(|&corner| lamp.front.depth(corner) > 0.0);
-            if above.is_empty() || !faces {
-                continue;
-            }
-            let source = Facet { corners: &above, plane: lamp.front };
-            for occluder in occluders.polygons_between(source, receiver) {
-                lamp.lines_by(&above, occluder, receiver.plane, &mut lines);
-            }
-        }
-        lines
-    }
+/// A discontinuity line, perhaps.
+#[derive(Clone, Copy, Debug)]
+pub struct Line {
+    /// Its ends, m.
+    pub ends: [DVec3; 2],
+    /// The number of the lamp whose view changes.
+    pub(crate) lamp: u32,
 }
 
 impl AreaLamp {
+    /// The lines that occluders make with the part of the lamp, which has this number, above the receiver.
+    pub(super) fn lines<'a>(
+        &self,
+        (lamp, receiver): (u32, Facet<'_>),
+        occluders: impl Iterator<Item = &'a [DVec3]>,
+    ) -> impl Iterator<Item = Line> {
+        let mut lines = Vec::new();
+        if let Some(above) = self.above(receiver) {
+            occluders.for_each(|occluder| {
+                self.lines_by(&above, occluder, receiver.plane, &mut lines);
+            });
+        }
+        lines.into_iter().map(move |ends| Line { ends, lamp })
+    }
+
     /// The lines that one occluder makes with the part of the lamp above the receiver.
     fn lines_by(
         &self,

@@ -3,19 +3,23 @@
 //! It carries the hard edges, so it is never carried by the hemicube.
 
 mod lines;
+mod outlook;
 mod punctual;
 
+use std::borrow::Cow;
+
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::colour::Rgb;
 use crate::form_factor::contour::{point_to_polygon, point_to_polygon_above};
-use crate::mesh::{Direct, Mesh, Vertex};
+use crate::mesh::{Direct, Mesh};
 use crate::scene::Light;
 use crate::surface::Surfaces;
 use crate::surface::cut::{Cuts, convex_pieces};
-use crate::visibility::{HalfSpace, Occluders, Pieces, Polygon};
+use crate::visibility::{Facet, HalfSpace, Occluders, Pieces, Polygon};
 
+pub use lines::Line;
+pub use outlook::PatchLight;
 use punctual::Source;
 
 /// All emitters of a scene.
@@ -79,20 +83,13 @@ impl Lamps {
 
     /// What arrives at a place with unit `normal`.
     pub fn shine(&self, occluders: &Occluders, place: DVec3, normal: DVec3) -> Direct {
+        let shine = |lamp: &AreaLamp| lamp.shine((occluders, None), (place, normal), self.rows);
+        let areas: Direct = self.areas.iter().map(shine).sum();
+        areas + self.points_shine(occluders, place, normal)
+    }
+
+    fn points_shine(&self, occluders: &Occluders, place: DVec3, normal: DVec3) -> Direct {
         let mut light = Direct::default();
-        for lamp in &self.areas {
-            let unoccluded = lamp.reach(place, normal);
-            if !unoccluded.is_empty() {
-                let all = point_to_polygon_above(place, normal, &unoccluded);
-                let seen = match self.rows {
-                    Some(rows) => sampled(occluders, (place, normal), &unoccluded, rows),
-                    None => lamp.seen(occluders, (place, normal), &unoccluded),
-                };
-                let seen = seen.min(all);
-                light.unoccluded += lamp.exitance * all;
-                light.irradiance += lamp.exitance * seen;
-            }
-        }
         for point in &self.points {
             if let Some((irradiance, source)) = punctual::irradiance(point, place, normal) {
                 light.unoccluded += irradiance;
@@ -109,38 +106,58 @@ impl Lamps {
     }
 }
 
-/// Irradiance of vertices by all lamps, in their order.
-pub fn light_vertices(
-    lamps: &Lamps,
-    occluders: &Occluders,
-    surfaces: &Surfaces,
-    vertices: &[&Vertex],
-) -> Vec<Direct> {
-    let light = |vertex: &&Vertex| {
-        let normal = surfaces.list[vertex.surface as usize].plane.normal;
-        lamps.shine(occluders, vertex.site, normal)
-    };
-    vertices.par_iter().map(light).collect()
-}
+/// Occluders, and the numbers of those that may be in the way, where these are known.
+type Screen<'a> = (&'a Occluders, Option<&'a [u32]>);
 
 impl AreaLamp {
+    /// What arrives at a place with a unit normal; by so many `rows` of rays, if any.
+    fn shine(&self, screen: Screen<'_>, receiver: (DVec3, DVec3), rows: Option<u32>) -> Direct {
+        let (place, normal) = receiver;
+        let above = self.reach(place, normal);
+        if above.is_empty() {
+            return Direct::default();
+        }
+        let all = point_to_polygon_above(place, normal, &above);
+        let seen = match (screen, rows) {
+            ((_, Some([])), _) => all,
+            ((occluders, _), Some(rows)) => sampled(occluders, receiver, &above, rows),
+            _ => self.seen(screen, receiver, &above),
+        };
+        Direct { irradiance: self.exitance * seen.min(all), unoccluded: self.exitance * all }
+    }
+
     /// The part above the horizon of a place in front of the lamp.
-    fn reach(&self, place: DVec3, normal: DVec3) -> Polygon {
+    fn reach(&self, place: DVec3, normal: DVec3) -> Cow<'_, [DVec3]> {
         if self.front.depth(place) <= 0.0 {
-            return Polygon::new();
+            return Cow::Borrowed(&[]);
         }
-        let horizon = HalfSpace::new(place, normal);
+        self.above_plane(HalfSpace::new(place, normal))
+    }
+
+    /// The part that some place on a receiver may see, if there is one.
+    fn above(&self, receiver: Facet<'_>) -> Option<Cow<'_, [DVec3]>> {
+        let faces = receiver.corners.iter().any(|&corner| self.front.depth(corner) > 0.0);
+        let above = self.above_plane(receiver.plane);
+        (faces && !above.is_empty()).then_some(above)
+    }
+
+    fn above_plane(&self, horizon: HalfSpace) -> Cow<'_, [DVec3]> {
         if self.corners.iter().all(|&corner| horizon.depth(corner) >= 0.0) {
-            return self.corners.clone();
+            return Cow::Borrowed(&self.corners);
         }
-        horizon.clip(&self.corners)
+        Cow::Owned(horizon.clip(&self.corners).into_vec())
     }
 
     /// Form factor of the part that is not hidden.
-    fn seen(&self, occluders: &Occluders, (place, normal): (DVec3, DVec3), above: &[DVec3]) -> f64 {
-        let exact = occluders.visible_part(place, above, self.front.normal);
+    fn seen(&self, screen: Screen<'_>, (place, normal): (DVec3, DVec3), above: &[DVec3]) -> f64 {
+        let exact = match screen {
+            (occluders, Some(among)) => {
+                occluders.visible_behind(among, place, above, self.front.normal)
+            }
+            (occluders, None) => occluders.visible_part(place, above, self.front.normal),
+        };
         exact.map_or_else(
-            || sampled(occluders, (place, normal), above, STRATA),
+            || sampled(screen.0, (place, normal), above, STRATA),
             |pieces: Pieces| {
                 pieces.iter().map(|piece| point_to_polygon_above(place, normal, piece)).sum()
             },

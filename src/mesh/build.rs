@@ -109,7 +109,15 @@ impl Mesh {
             let (direct, indirect) = (None, None);
             let plane = &self.index.sheets[surface as usize].plane;
             self.index.landmarks.number(plane.lift(position));
-            self.vertices.push(Vertex { surface, position, site, on_contact, direct, indirect });
+            self.vertices.push(Vertex {
+                surface,
+                patch,
+                position,
+                site,
+                on_contact,
+                direct,
+                indirect,
+            });
         }
         vertex
     }
@@ -148,6 +156,7 @@ impl Mesh {
         let mut copy = self[vertex].clone();
         let inward = (inside - copy.position).normalize_or_zero();
         let reach = (2.0 * INSET * self.index.tolerance).min(0.2 * inside.distance(copy.position));
+        copy.patch = patch;
         copy.site = plane.lift(copy.position + inward * reach);
         (copy.direct, copy.indirect) = (None, None);
         self.vertices.push(copy);

@@ -5,6 +5,9 @@ mod ids;
 mod split;
 mod validate;
 
+use std::iter::Sum;
+use std::ops::Add;
+
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
@@ -83,6 +86,8 @@ pub enum Reason {
     ShadowEdge,
     /// A contact line runs along its border and light rises steeply beside it.
     Contact,
+    /// A line on which direct light has a kink or a bend runs through it: it was cut along that.
+    Discontinuity,
 }
 
 /// A place on a surface where light is known.
@@ -90,6 +95,8 @@ pub enum Reason {
 pub struct Vertex {
     /// Index into [`crate::surface::Surfaces::list`].
     pub surface: u32,
+    /// The patch, of perhaps several, on which light is evaluated for it.
+    pub patch: PatchId,
     /// Coordinates on the surface's plane, m.
     pub position: DVec2,
     /// Where in space light is evaluated for it, m: moved a hair from the border into the patch.
@@ -117,6 +124,23 @@ impl Direct {
     pub fn visible(&self) -> f64 {
         let all = self.unoccluded.element_sum();
         if all > 0.0 { self.irradiance.element_sum() / all } else { 1.0 }
+    }
+}
+
+impl Add for Direct {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            irradiance: self.irradiance + other.irradiance,
+            unoccluded: self.unoccluded + other.unoccluded,
+        }
+    }
+}
+
+impl Sum for Direct {
+    fn sum<I: Iterator<Item = Self>>(lights: I) -> Self {
+        lights.fold(Self::default(), Self::add)
     }
 }
 

@@ -1,14 +1,13 @@
 //! Where to cut an element along a discontinuity line.
 
-use glam::{DVec2, DVec3};
-use smallvec::SmallVec;
+use glam::DVec2;
+use smallvec::{SmallVec, smallvec};
 
 use super::{Oracle, strength};
-use crate::direct::Lamps;
-use crate::mesh::{Crossing, ElementId, Mesh, Patch, Split};
-use crate::surface::polygon::{self, Convex, Line, Segment};
-use crate::surface::{Plane, Surfaces};
-use crate::visibility::{Facet, Occluders};
+use crate::direct::{Line, PatchLight};
+use crate::mesh::{Crossing, ElementId, Mesh, Patch, PatchId, Split};
+use crate::surface::Surfaces;
+use crate::surface::polygon::{self, Convex, Segment};
 
 /// How far from a line derivatives are taken, as a share of the patch's size.
 const STEP: f64 = 1.0 / 64.0;
@@ -46,30 +45,40 @@ struct Chord {
     least_part: f64,
 }
 
+/// A segment on which the views of some lamps change.
+struct Event {
+    segment: Segment,
+    lamps: SmallVec<[u32; 2]>,
+}
+
 /// The discontinuity lines of a patch, as far as they carry anything, by direct light.
 pub fn discontinuities(
-    (surfaces, patch): (&Surfaces, &Patch),
-    lamps: &Lamps,
-    occluders: &Occluders,
+    (surfaces, mesh): (&Surfaces, &Mesh),
+    patch: PatchId,
+    light: &PatchLight,
 ) -> Vec<Discontinuity> {
-    let plane = &surfaces.list[patch.surface as usize].plane;
-    if patch.reflectance.max_element() <= 0.0 {
+    let Patch { surface, reflectance, corners, area, .. } = &mesh[patch];
+    if reflectance.max_element() <= 0.0 {
         return Vec::new();
     }
-    let outline: Convex = patch.corners.iter().map(|&p| plane.flatten(p)).collect();
+    let plane = &surfaces.list[*surface as usize].plane;
+    let outline: Convex = corners.iter().map(|&p| plane.flatten(p)).collect();
     let borders = polygon::borders(&outline);
-    let lines = lamps.lines(occluders, Facet::new(&patch.corners, patch.normal));
-    let light = |place: DVec2| {
-        let Plane { normal, .. } = *plane;
-        strength(patch.reflectance * lamps.shine(occluders, plane.lift(place), normal).irradiance)
+    let inside = light.lines(patch).into_iter().filter_map(|Line { ends, lamp }| {
+        let segment = ends.map(|p| plane.flatten(p));
+        let segment = polygon::clip(segment, &borders, surfaces.tolerance)?;
+        Some(Event { segment, lamps: smallvec![lamp] })
+    });
+    let step = STEP * area.sqrt();
+    let weighed = |event: Event| {
+        // All other light is smooth there, or has a line of its own.
+        let by = |place: DVec2| {
+            let chosen = |lamp| event.lamps.contains(&lamp);
+            strength(*reflectance * light.by(patch, plane.lift(place), chosen).irradiance)
+        };
+        weigh(event.segment, &borders, step, by)
     };
-    let flat = |line: [DVec3; 2]| line.map(|p| plane.flatten(p));
-    let inside = lines
-        .into_iter()
-        .filter_map(|line| polygon::clip(flat(line), &borders, surfaces.tolerance));
-    let step = STEP * patch.area.sqrt();
-    let weighed = joined(inside, surfaces.tolerance).into_iter();
-    let weighed = weighed.filter_map(|segment| weigh(segment, &borders, step, light));
+    let weighed = joined(inside, surfaces.tolerance).into_iter().filter_map(weighed);
     weighed.filter(|line| line.kink > 0.0 || line.bend > 0.0).collect()
 }
 
@@ -77,7 +86,7 @@ pub fn discontinuities(
 /// not all inside the borders.
 fn weigh(
     segment: Segment,
-    borders: &[Line],
+    borders: &[polygon::Line],
     step: f64,
     light: impl Fn(DVec2) -> f64,
 ) -> Option<Discontinuity> {
@@ -99,17 +108,20 @@ fn weigh(
     })
 }
 
-/// Segments with those that overlap on one line joined.
-fn joined(segments: impl Iterator<Item = Segment>, tolerance: f64) -> Vec<Segment> {
-    let mut all: Vec<Segment> = Vec::new();
-    for mut new in segments {
-        all.retain(|&old| match union(new, old, tolerance) {
+/// Events with those that overlap on one line joined.
+fn joined(events: impl Iterator<Item = Event>, tolerance: f64) -> Vec<Event> {
+    let mut all: Vec<Event> = Vec::new();
+    for mut new in events {
+        all.retain(|old| match union(new.segment, old.segment, tolerance) {
             Some(union) => {
-                new = union;
+                new.segment = union;
+                new.lamps.extend_from_slice(&old.lamps);
                 false
             }
             None => true,
         });
+        new.lamps.sort_unstable();
+        new.lamps.dedup();
         all.push(new);
     }
     all
@@ -117,7 +129,7 @@ fn joined(segments: impl Iterator<Item = Segment>, tolerance: f64) -> Vec<Segmen
 
 /// Two segments as one, if they overlap on one line.
 fn union(a: Segment, b: Segment, tolerance: f64) -> Option<Segment> {
-    let line = Line::through(a);
+    let line = polygon::Line::through(a);
     if b.iter().any(|&p| line.side(p, tolerance) != 0.0) {
         return None;
     }
@@ -139,7 +151,7 @@ pub fn cut(
     let (borders, area) = (polygon::borders(&outline), polygon::area(&outline));
     let carried = |line: &Discontinuity| {
         let [from, to] = polygon::clip(line.segment, &borders, tolerance)?;
-        let chord = Chord::new(&outline, &Line::through(line.segment), tolerance)?;
+        let chord = Chord::new(&outline, &polygon::Line::through(line.segment), tolerance)?;
         let share = from.distance(to) / chord.length;
         if share < LEAST_SHARE || chord.least_part < LEAST_PART {
             return None;
@@ -156,7 +168,7 @@ pub fn cut(
 
 impl Chord {
     /// Along a line, its ends moved to corners that are near; none where its parts would be slivers.
-    fn new(outline: &Convex, line: &Line, tolerance: f64) -> Option<Self> {
+    fn new(outline: &Convex, line: &polygon::Line, tolerance: f64) -> Option<Self> {
         let n = outline.len();
         let mut crossings: SmallVec<[Crossing; 4]> = SmallVec::new();
         for edge in 0..n {
@@ -179,7 +191,7 @@ impl Chord {
         if [from, to].iter().any(|&end| sine(outline, end, along) < LEAST_SINE) {
             return None;
         }
-        let parts = Line::through([at(from), at(to)]).split(outline, tolerance);
+        let parts = polygon::Line::through([at(from), at(to)]).split(outline, tolerance);
         let [a, b] = parts.map(|part| part.map_or(0.0, |part| polygon::area(&part)));
         Some(Self { ends: [from, to], length: along.length(), least_part: a.min(b) / (a + b) })
     }

@@ -61,24 +61,27 @@ struct Errors {
 }
 
 impl Oracle {
-    /// An oracle of light straight from emitters, for a scene of this extent, m, whose surfaces have
-    /// this mean radiosity, W/m².
-    pub fn of_direct_light(settings: &Settings, extent: f64, level: f64) -> Self {
-        Self::new(settings, DIRECT_SHARE, (extent, level))
+    /// An oracle of light straight from emitters, for a scene of this extent, m.
+    ///
+    /// Direct light must be known at the corners of all patches of the mesh.
+    pub fn of_direct_light(settings: &Settings, extent: f64, mesh: &Mesh) -> Self {
+        Self::new(settings, DIRECT_SHARE, (extent, mesh))
     }
 
-    /// An oracle of light from other surfaces, for a scene of this extent, m, and mean radiosity, W/m².
-    pub fn of_reflected_light(settings: &Settings, extent: f64, level: f64) -> Self {
-        Self::new(settings, REFLECTED_SHARE, (extent, level))
+    /// An oracle of light from other surfaces, for a scene of this extent, m.
+    ///
+    /// Direct light must be known at the corners of all patches of the mesh.
+    pub fn of_reflected_light(settings: &Settings, extent: f64, mesh: &Mesh) -> Self {
+        Self::new(settings, REFLECTED_SHARE, (extent, mesh))
     }
 
-    fn new(settings: &Settings, share: f64, (extent, level): (f64, f64)) -> Self {
+    fn new(settings: &Settings, share: f64, (extent, mesh): (f64, &Mesh)) -> Self {
         Self {
             tolerance: settings.tolerance * share,
             min_element: settings.min_element.metres(extent),
             max_level: settings.max_level,
             plain_size: PLAIN_SIZE * extent,
-            level,
+            level: mean_radiosity(mesh),
         }
     }
 
@@ -154,7 +157,15 @@ impl Oracle {
     }
 
     /// Why an element is divided.
-    pub fn reason(&self, mesh: &Mesh, element: ElementId, middle: &Middle) -> Reason {
+    pub fn reason(
+        &self,
+        (mesh, element): (&Mesh, ElementId),
+        split: Split,
+        middle: &Middle,
+    ) -> Reason {
+        if matches!(split, Split::Along(_)) {
+            return Reason::Discontinuity;
+        }
         let places = || mesh[element].corners.iter().chain(&middle.edges).chain([&middle.centre]);
         let seen = places().filter_map(|&v| mesh[v].direct).map(|d| d.visible());
         let (low, high) = seen.fold((1.0, 0.0), |(l, h): (f64, f64), s| (l.min(s), h.max(s)));
@@ -164,6 +175,21 @@ impl Oracle {
         let touches = mesh[element].corners.iter().any(|&v| mesh[v].on_contact);
         if touches { Reason::Contact } else { Reason::Gradient }
     }
+}
+
+/// Estimate of the mean radiosity of the scene's surfaces, W/m², from the direct light at patch corners.
+///
+/// Interreflection is taken as in a closed room: 1 / (1 - mean reflectance) times the direct light.
+pub fn mean_radiosity(mesh: &Mesh) -> f64 {
+    let (mut area, mut reflected, mut reflectance) = (0.0, 0.0, 0.0);
+    for patch in &mesh.patches {
+        let corners = &mesh[patch.root].corners;
+        let light: Rgb = corners.iter().filter_map(|&v| mesh[v].direct).map(|d| d.irradiance).sum();
+        reflected += strength(patch.reflectance * light) / corners.len() as f64 * patch.area;
+        reflectance += strength(patch.reflectance) * patch.area;
+        area += patch.area;
+    }
+    reflected / (area - reflectance).max(f64::MIN_POSITIVE)
 }
 
 impl Errors {

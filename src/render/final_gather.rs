@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::colour::Rgb;
-use crate::direct::Lamps;
+use crate::direct::{Lamps, PatchLight};
 use crate::mesh::{ElementId, Mesh};
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
@@ -13,14 +13,13 @@ use crate::visibility::Occluders;
 pub(super) struct FinalGather<'a> {
     surfaces: &'a Surfaces,
     mesh: &'a Mesh,
-    lamps: Lamps,
-    occluders: Occluders,
+    light: PatchLight,
 }
 
 impl<'a> FinalGather<'a> {
     pub(super) fn new(surfaces: &'a Surfaces, mesh: &'a Mesh) -> Self {
         let (lamps, occluders) = (Lamps::new(surfaces, mesh), Occluders::new(surfaces));
-        Self { surfaces, mesh, lamps, occluders }
+        Self { surfaces, mesh, light: PatchLight::new(lamps, occluders, mesh) }
     }
 
     /// Irradiance straight from emitters, W/m², at a place on a leaf.
@@ -29,8 +28,9 @@ impl<'a> FinalGather<'a> {
     /// hides it nor leaks light to it.
     pub(super) fn direct(&self, leaf: ElementId, place: DVec3) -> Rgb {
         let plane = &self.surfaces.list[self.mesh.surface_of(leaf)].plane;
-        let site = self.mesh.site(self.mesh[leaf].patch, plane.flatten(place));
-        self.lamps.shine(&self.occluders, site, plane.normal).irradiance
+        let patch = self.mesh[leaf].patch;
+        let site = self.mesh.site(patch, plane.flatten(place));
+        self.light.at(patch, site).irradiance
     }
 
     /// Diffuse reflectance of a leaf, without the texture's part.

@@ -4,10 +4,11 @@ use super::colours::{self, Swatch};
 use super::shade::Solved;
 use crate::colour::Rgb;
 use crate::mesh::{ElementId, Mesh, Reason, Vertex};
-use crate::refine::{Oracle, strength};
+use crate::refine::Oracle;
 
 /// Names of what makes leaves, in the order of their colours.
-const REASONS: [&str; 5] = ["whole patch", "uniform mesh", "gradient", "shadow edge", "contact"];
+const REASONS: [&str; 6] =
+    ["whole patch", "uniform mesh", "gradient", "shadow edge", "contact", "discontinuity line"];
 
 /// Colours of elements by their level, linear, and what they stand for.
 pub(super) fn levels(mesh: &Mesh) -> (Vec<Rgb>, Vec<Swatch>) {
@@ -28,6 +29,7 @@ pub(super) fn reasons(mesh: &Mesh) -> (Vec<Rgb>, Vec<Swatch>) {
                 Some(Reason::Gradient) => 2,
                 Some(Reason::ShadowEdge) => 3,
                 Some(Reason::Contact) => 4,
+                Some(Reason::Discontinuity) => 5,
             };
         }
     }
@@ -52,9 +54,9 @@ fn coloured(
 /// allow: the larger of that of direct light and, where it was gathered, of indirect light.
 pub(super) fn errors(solved: &Solved<'_>) -> Vec<Rgb> {
     let mesh = &solved.solution.mesh;
-    let (extent, level) = (solved.surfaces.extent, mean_radiosity(mesh));
-    let of_direct_light = Oracle::of_direct_light(solved.settings, extent, level);
-    let of_reflected_light = Oracle::of_reflected_light(solved.settings, extent, level);
+    let Solved { surfaces, settings, .. } = solved;
+    let of_direct_light = Oracle::of_direct_light(settings, surfaces.extent, mesh);
+    let of_reflected_light = Oracle::of_reflected_light(settings, surfaces.extent, mesh);
     let error = |leaf: ElementId| {
         let middle = mesh.find_middle(leaf)?;
         let reflectance = mesh[mesh[leaf].patch].reflectance;
@@ -72,17 +74,4 @@ pub(super) fn errors(solved: &Solved<'_>) -> Vec<Rgb> {
         errors[leaf.index()] = Rgb::splat(error(leaf).unwrap_or(0.0));
     }
     errors
-}
-
-/// Mean of the reflected radiosity over all surfaces, W/m².
-fn mean_radiosity(mesh: &Mesh) -> f64 {
-    let (mut area, mut reflected) = (0.0, 0.0);
-    for leaf in mesh.leaves() {
-        let element = &mesh[leaf];
-        let light: Rgb = element.corners.iter().map(|&v| mesh[v].irradiance()).sum();
-        let mean = mesh[element.patch].reflectance * light / element.corners.len() as f64;
-        area += element.area;
-        reflected += strength(mean) * element.area;
-    }
-    reflected / area.max(f64::MIN_POSITIVE)
 }

@@ -5,8 +5,8 @@ use rayon::prelude::*;
 
 use super::{Observer, Phase};
 use crate::colour::Rgb;
-use crate::direct::{Lamps, light_vertices};
-use crate::mesh::{Direct, ElementId, Mesh, Middle, Patch, Split, Vertex, VertexId};
+use crate::direct::PatchLight;
+use crate::mesh::{Direct, ElementId, Mesh, Middle, PatchId, Split, Vertex, VertexId};
 use crate::refine::{self, Discontinuity, Oracle, cut, strength};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
@@ -21,7 +21,7 @@ const PROBES: usize = 4;
 pub(super) struct World<'a> {
     pub(super) surfaces: &'a Surfaces,
     pub(super) occluders: &'a Occluders,
-    pub(super) lamps: &'a Lamps,
+    pub(super) light: &'a PatchLight,
 }
 
 /// Evaluates direct light at all vertices that lack it.
@@ -29,7 +29,7 @@ pub(super) fn light(world: World<'_>, mesh: &mut Mesh) {
     let dark: Vec<usize> =
         (0..mesh.vertices.len()).filter(|&v| mesh.vertices[v].direct.is_none()).collect();
     let vertices: Vec<&Vertex> = dark.iter().map(|&v| &mesh.vertices[v]).collect();
-    let lit = light_vertices(world.lamps, world.occluders, world.surfaces, &vertices);
+    let lit = world.light.at_vertices(&vertices);
     for (vertex, direct) in dark.into_iter().zip(lit) {
         mesh.vertices[vertex].direct = Some(direct);
     }
@@ -58,8 +58,8 @@ pub(super) fn refine(
     if settings.uniform.is_some() {
         return;
     }
-    let oracle = Oracle::of_direct_light(settings, world.surfaces.extent, mean_radiosity(mesh));
-    let lines = if settings.discontinuity_lines {
+    let oracle = Oracle::of_direct_light(settings, world.surfaces.extent, mesh);
+    let lines = if settings.discontinuity_lines && settings.max_level > 0 {
         discontinuities(world, mesh)
     } else {
         vec![Vec::new(); mesh.patches.len()]
@@ -80,7 +80,8 @@ pub(super) fn refine(
         let mut parts = Vec::new();
         for ((&element, middle), verdict) in candidates.iter().zip(&middles).zip(verdicts) {
             if let Some(split) = verdict {
-                mesh.split(element, split, oracle.reason(mesh, element, middle));
+                let reason = oracle.reason((mesh, element), split, middle);
+                mesh.split(element, split, reason);
                 parts.extend_from_slice(&mesh[element].children);
             }
         }
@@ -90,29 +91,14 @@ pub(super) fn refine(
 
 /// Discontinuity lines, patch by patch.
 fn discontinuities(world: World<'_>, mesh: &Mesh) -> Vec<Vec<Discontinuity>> {
-    let World { surfaces, occluders, lamps } = world;
-    let lines = |patch: &Patch| refine::discontinuities((surfaces, patch), lamps, occluders);
-    mesh.patches.par_iter().map(lines).collect()
+    let lines =
+        |patch: u32| refine::discontinuities((world.surfaces, mesh), PatchId(patch), world.light);
+    (0..mesh.patches.len() as u32).into_par_iter().map(lines).collect()
 }
 
 /// Black surfaces show no light, so nothing is gained by dividing them.
 pub(super) fn reflects(mesh: &Mesh, element: ElementId) -> bool {
     mesh[mesh[element].patch].reflectance.max_element() > 0.0
-}
-
-/// Estimate of the mean radiosity of the scene's surfaces, W/m², from the direct light at patch corners.
-///
-/// Interreflection is taken as in a closed room: 1 / (1 - mean reflectance) times the direct light.
-pub(super) fn mean_radiosity(mesh: &Mesh) -> f64 {
-    let (mut area, mut reflected, mut reflectance) = (0.0, 0.0, 0.0);
-    for patch in &mesh.patches {
-        let corners = &mesh[patch.root].corners;
-        let light: Rgb = corners.iter().filter_map(|&v| mesh[v].direct).map(|d| d.irradiance).sum();
-        reflected += strength(patch.reflectance * light) / corners.len() as f64 * patch.area;
-        reflectance += strength(patch.reflectance) * patch.area;
-        area += patch.area;
-    }
-    reflected / (area - reflectance).max(f64::MIN_POSITIVE)
 }
 
 /// How to divide an element, if at all: along a discontinuity line, or as the oracle says.
@@ -141,8 +127,7 @@ fn judge(
     let surface = &world.surfaces.list[mesh.surface_of(element)];
     let probe_error = |(position, expected): (DVec2, Rgb)| {
         let place = surface.plane.lift(position);
-        let Direct { irradiance, .. } =
-            world.lamps.shine(world.occluders, place, surface.plane.normal);
+        let Direct { irradiance, .. } = world.light.at(mesh[element].patch, place);
         strength(reflectance * (irradiance - expected))
     };
     let probes = probes(&corners).into_iter().map(probe_error).fold(0.0, f64::max);

@@ -56,7 +56,8 @@ fn divide(
         let shown = |v: &Vertex| reflectance * v.indirect.unwrap_or(Rgb::ZERO);
         let Some(split) = oracle.judge((mesh, element), middle, shown, 0.0) else { continue };
         if mesh[element].is_leaf() {
-            mesh.split(element, split, oracle.reason(mesh, element, middle));
+            let reason = oracle.reason((mesh, element), split, middle);
+            mesh.split(element, split, reason);
         }
         parts.extend_from_slice(&mesh[element].children);
     }

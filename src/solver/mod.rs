@@ -17,10 +17,10 @@ mod transport;
 use std::ops::ControlFlow;
 
 use crate::colour::Rgb;
-use crate::direct::Lamps;
+use crate::direct::{Lamps, PatchLight};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
-use crate::refine::Oracle;
+use crate::refine::{Oracle, mean_radiosity};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
@@ -134,12 +134,12 @@ pub fn solve(
     let mut observer = Observer { observe: &mut observe, flow: ControlFlow::Continue(()) };
     let mut mesh = Mesh::new(surfaces, settings);
     check_reflectances(surfaces, &mesh)?;
-    let occluders = Occluders::new(surfaces);
     let lamps = Lamps::new(surfaces, &mesh).seen_by(settings.shadow_rays);
     if lamps.is_empty() {
         return Err(Error::Scene(DARK.to_owned()));
     }
-    let world = World { surfaces, occluders: &occluders, lamps: &lamps };
+    let light = PatchLight::new(lamps, Occluders::new(surfaces), &mesh);
+    let world = World { surfaces, occluders: light.occluders(), light: &light };
 
     direct_pass::refine(world, settings, &mut mesh, &mut observer);
     direct_pass::light_leaves(world, &mut mesh);
@@ -171,9 +171,8 @@ fn gather(
     (mesh, exchange): (&mut Mesh, &mut Exchange),
     observer: &mut Observer<'_>,
 ) -> usize {
-    let level = direct_pass::mean_radiosity(mesh);
-    let fine = GATHER_SHARE * settings.tolerance * level;
-    let oracle = Oracle::of_reflected_light(settings, world.surfaces.extent, level);
+    let fine = GATHER_SHARE * settings.tolerance * mean_radiosity(mesh);
+    let oracle = Oracle::of_reflected_light(settings, world.surfaces.extent, mesh);
     let mut gatherer = Gatherer::new(world, exchange.sources(mesh), fine);
     for round in 1..=ROUNDS {
         indirect_pass::refine((settings, &oracle), &mut gatherer, mesh, observer);

@@ -39,18 +39,24 @@ impl Occluders {
         Between { parts: parts.into_iter().map(|(_, part)| part).collect(), tolerance, hides_all }
     }
 
-    /// The occluders of which a part stands between two polygons that face each other, as wholes.
-    pub fn polygons_between(&self, a: Facet<'_>, b: Facet<'_>) -> impl Iterator<Item = &[DVec3]> {
+    /// The numbers of the occluders of which a part stands between two polygons that face each other.
+    pub fn numbers_between(&self, a: Facet<'_>, b: Facet<'_>) -> impl Iterator<Item = u32> {
         let near = self.near(a, b);
         let hull = if near.is_empty() { SmallVec::new() } else { hull(a, b, self.tolerance) };
-        let near = near.into_iter().map(|index| &self.polygons[index as usize]);
-        let stands = move |occluder: &&Occluder| inside(occluder, &hull, self.tolerance).is_some();
-        near.filter(stands).map(|occluder| occluder.corners.as_slice())
+        let stands = move |&index: &u32| {
+            inside(&self.polygons[index as usize], &hull, self.tolerance).is_some()
+        };
+        near.into_iter().filter(stands)
+    }
+
+    /// The corners of an occluder, by its number.
+    pub fn corners(&self, number: u32) -> &[DVec3] {
+        &self.polygons[number as usize].corners
     }
 
     /// True if nothing stands between two polygons that face each other.
     pub fn is_clear(&self, a: Facet<'_>, b: Facet<'_>) -> bool {
-        self.polygons_between(a, b).next().is_none()
+        self.numbers_between(a, b).next().is_none()
     }
 
     /// The occluders of which something is in the box around two polygons and in front of both.

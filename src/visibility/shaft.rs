@@ -3,9 +3,9 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::Occluders;
 use super::clip::{Facet, HalfSpace, Polygon};
 use super::shadow::{Seen, Shadow};
+use super::{Occluder, Occluders};
 
 /// The visible pieces of a polygon; they do not overlap.
 pub type Pieces = SmallVec<[Polygon; 2]>;
@@ -84,22 +84,28 @@ impl Occluders {
     ) -> Option<Pieces> {
         let facet = Facet::new(source, normal);
         let shaft = Shaft::new(eye, source, facet.plane);
-        let mut seen = Seen::new(eye, facet, self.tolerance);
-        let mut shadows: Vec<Shadow> = Vec::new();
+        let mut shade = Shade::new(Seen::new(eye, facet, self.tolerance), most);
         self.for_each(
             |low, high| shaft.meets_box(low, high, self.tolerance),
-            |_, occluder| {
-                if shaft.meets(&occluder.corners, self.tolerance) {
-                    shadows.extend(seen.shadow(occluder));
-                }
-                if shadows.len() >= BATCH || shadows.last().is_some_and(Shadow::covers_all) {
-                    subtract_all(&mut seen, &mut shadows);
-                }
-                !seen.is_empty() && seen.len() <= most
-            },
+            |_, occluder| !shaft.meets(&occluder.corners, self.tolerance) || shade.by(occluder),
         );
-        subtract_all(&mut seen, &mut shadows);
-        (seen.len() <= most).then(|| seen.pieces())
+        shade.pieces()
+    }
+
+    /// As [`Self::visible_part`], where no other occluders than those of these numbers are in the way.
+    pub fn visible_behind(
+        &self,
+        among: &[u32],
+        eye: DVec3,
+        source: &[DVec3],
+        normal: DVec3,
+    ) -> Option<Pieces> {
+        let seen = Seen::new(eye, Facet::new(source, normal), self.tolerance);
+        let mut shade = Shade::new(seen, CROWDED);
+        let mut occluders = among.iter().map(|&number| &self.polygons[number as usize]);
+        // `all` stops where nothing is left to see.
+        occluders.all(|occluder| shade.by(occluder));
+        shade.pieces()
     }
 
     /// True if something may stand between `eye` and a part of `source`.
@@ -119,16 +125,46 @@ impl Occluders {
     }
 }
 
-/// Takes shadows out of what is seen, the largest first: it leaves the others little to cut.
-fn subtract_all(seen: &mut Seen, shadows: &mut Vec<Shadow>) {
-    let mut order: SmallVec<[(f64, usize); BATCH]> = SmallVec::new();
-    order.extend(shadows.iter().enumerate().map(|(k, shadow)| (shadow.area, k)));
-    order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    for (_, k) in order {
-        if seen.is_empty() {
-            break;
-        }
-        seen.subtract(&shadows[k]);
+/// What is seen, while shadows are taken out of it.
+struct Shade {
+    seen: Seen,
+    /// Still to be taken out.
+    shadows: Vec<Shadow>,
+    /// More pieces than this are too many.
+    most: usize,
+}
+
+impl Shade {
+    fn new(seen: Seen, most: usize) -> Self {
+        Self { seen, shadows: Vec::new(), most }
     }
-    shadows.clear();
+
+    /// Adds the shadow of an occluder; false if going on is of no use.
+    fn by(&mut self, occluder: &Occluder) -> bool {
+        self.shadows.extend(self.seen.shadow(occluder));
+        if self.shadows.len() >= BATCH || self.shadows.last().is_some_and(Shadow::covers_all) {
+            self.subtract();
+        }
+        !self.seen.is_empty() && self.seen.len() <= self.most
+    }
+
+    /// Takes the shadows out of what is seen, the largest first: it leaves the others little to cut.
+    fn subtract(&mut self) {
+        let mut order: SmallVec<[(f64, usize); BATCH]> = SmallVec::new();
+        order.extend(self.shadows.iter().enumerate().map(|(k, shadow)| (shadow.area, k)));
+        order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        for (_, k) in order {
+            if self.seen.is_empty() {
+                break;
+            }
+            self.seen.subtract(&self.shadows[k]);
+        }
+        self.shadows.clear();
+    }
+
+    /// What is left, unless it is too many pieces.
+    fn pieces(mut self) -> Option<Pieces> {
+        self.subtract();
+        (self.seen.len() <= self.most).then(|| self.seen.pieces())
+    }
 }

@@ -1,0 +1,105 @@
+//! What the patches of a mesh see of the lamps: those that can shine on each, and what stands in between.
+//!
+//! Found once for a patch, it spares all places on it the search.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::lines::Line;
+use super::{AreaLamp, Lamps};
+use crate::mesh::{Direct, Mesh, Patch, PatchId, Vertex};
+use crate::visibility::{Facet, Occluders};
+
+/// More occluders than this are found quicker from each place anew.
+const FEW: usize = 32;
+
+/// Direct light on the patches of a mesh.
+#[derive(Debug)]
+pub struct PatchLight {
+    lamps: Lamps,
+    occluders: Occluders,
+    /// By patch.
+    outlooks: Vec<Outlook>,
+}
+
+#[derive(Debug)]
+struct Outlook {
+    corners: Vec<DVec3>,
+    normal: DVec3,
+    prospects: Vec<Prospect>,
+}
+
+/// A lamp that can shine on a patch.
+#[derive(Debug)]
+struct Prospect {
+    /// Index into [`Lamps::areas`].
+    lamp: u32,
+    /// The numbers of the occluders of which something stands between.
+    between: Box<[u32]>,
+}
+
+impl PatchLight {
+    /// The light of `lamps` on the patches of `mesh`, whatever their elements.
+    pub fn new(lamps: Lamps, occluders: Occluders, mesh: &Mesh) -> Self {
+        let outlook = |patch: &Patch| Outlook::new(&lamps, &occluders, patch);
+        let outlooks = mesh.patches.par_iter().map(outlook).collect();
+        Self { lamps, occluders, outlooks }
+    }
+
+    /// What stands in its way.
+    pub fn occluders(&self) -> &Occluders {
+        &self.occluders
+    }
+
+    /// What arrives at a place on a patch.
+    pub fn at(&self, patch: PatchId, place: DVec3) -> Direct {
+        self.by(patch, place, |_| true) + self.points_at(patch, place)
+    }
+
+    /// What arrives at vertices, in their order.
+    pub fn at_vertices(&self, vertices: &[&Vertex]) -> Vec<Direct> {
+        vertices.par_iter().map(|vertex| self.at(vertex.patch, vertex.site)).collect()
+    }
+
+    /// What arrives at a place on a patch from some of the polygons, chosen by their numbers.
+    pub(crate) fn by(&self, patch: PatchId, place: DVec3, chosen: impl Fn(u32) -> bool) -> Direct {
+        let Outlook { normal, prospects, .. } = &self.outlooks[patch.index()];
+        let shine = |prospect: &Prospect| {
+            let among = (prospect.between.len() <= FEW).then_some(&*prospect.between);
+            let lamp = &self.lamps.areas[prospect.lamp as usize];
+            lamp.shine((&self.occluders, among), (place, *normal), self.lamps.rows)
+        };
+        prospects.iter().filter(|prospect| chosen(prospect.lamp)).map(shine).sum()
+    }
+
+    fn points_at(&self, patch: PatchId, place: DVec3) -> Direct {
+        self.lamps.points_shine(&self.occluders, place, self.outlooks[patch.index()].normal)
+    }
+
+    /// Segments in the plane of a patch on which its irradiance by polygons may have a kink or a bend;
+    /// they may reach beyond the patch.
+    pub fn lines(&self, patch: PatchId) -> Vec<Line> {
+        let Outlook { corners, normal, prospects } = &self.outlooks[patch.index()];
+        let receiver = Facet::new(corners, *normal);
+        let mut lines = Vec::new();
+        for Prospect { lamp, between } in prospects {
+            let polygons = between.iter().map(|&number| self.occluders.corners(number));
+            lines.extend(self.lamps.areas[*lamp as usize].lines((*lamp, receiver), polygons));
+        }
+        lines
+    }
+}
+
+impl Outlook {
+    fn new(lamps: &Lamps, occluders: &Occluders, patch: &Patch) -> Self {
+        let receiver = Facet::new(&patch.corners, patch.normal);
+        let prospect = |(number, lamp): (usize, &AreaLamp)| {
+            let above = lamp.above(receiver)?;
+            let source = Facet { corners: &above, plane: lamp.front };
+            let between = occluders.numbers_between(source, receiver).collect();
+            Some(Prospect { lamp: number as u32, between })
+        };
+        let prospects = lamps.areas.iter().enumerate().filter_map(prospect).collect();
+        Self { corners: patch.corners.to_vec(), normal: patch.normal, prospects }
+    }
+}
