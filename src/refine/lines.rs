@@ -22,7 +22,7 @@ const LEAST_SHARE: f64 = 0.6;
 const SNAP: f64 = 0.15;
 
 /// Cuts end at multiples of this share of an edge, so that those of neighbours meet or keep apart.
-const NOTCHES: f64 = 256.0;
+const NOTCHES: f64 = 16.0;
 
 /// Sine of the least angle between a cut and an edge: 15°.
 const LEAST_SINE: f64 = 0.26;

@@ -1,30 +1,47 @@
 //! Contact lines: where another surface stands on, touches or pierces a surface.
 //!
-//! Light jumps across such a line, so no element may lie on both sides of it.
+//! Light jumps across such a line, so no element may lie on both sides of it. What hovers close over a
+//! surface counts as touching it: there, light falls nearly as steeply.
 
 use super::Surface;
 use super::polygon::{Line, Segment, contains, distance, edges};
 
-/// Finds the contact lines of every surface with every other, and stores them in both.
-pub(super) fn find_contacts(surfaces: &mut [Surface], tolerance: f64) {
-    for (receiver, other) in neighbours(surfaces, tolerance) {
-        let contacts = contacts(&surfaces[receiver], &surfaces[other], tolerance);
+/// What faces a surface from less than this share of the scene's extent hovers close over it.
+const CLOSE: f64 = 2e-3;
+
+/// Cosine of the greatest angle at which that faces it: 5°.
+const PARALLEL: f64 = 0.996;
+
+/// Distances, m.
+#[derive(Clone, Copy)]
+struct Near {
+    /// This far from a plane is in it.
+    tolerance: f64,
+    /// This far from a surface is close to it.
+    close: f64,
+}
+
+/// Finds the contact lines of every surface with every other, in a scene of this extent, m, and stores
+/// them in both.
+pub(super) fn find_contacts(surfaces: &mut [Surface], extent: f64, tolerance: f64) {
+    let near = Near { tolerance, close: CLOSE * extent };
+    for (receiver, other) in neighbours(surfaces, near.close) {
+        let contacts = contacts(&surfaces[receiver], &surfaces[other], near);
         surfaces[receiver].contacts.extend(contacts);
     }
 }
 
-/// Ordered pairs of surfaces whose bounding boxes touch, by a sweep along x.
-fn neighbours(surfaces: &[Surface], tolerance: f64) -> Vec<(usize, usize)> {
+/// Ordered pairs of surfaces whose bounding boxes are this close, by a sweep along x.
+fn neighbours(surfaces: &[Surface], close: f64) -> Vec<(usize, usize)> {
     let bounds: Vec<_> = surfaces.iter().map(Surface::bounds).collect();
     let mut order: Vec<usize> = (0..surfaces.len()).collect();
     order.sort_by(|&a, &b| bounds[a].0.x.total_cmp(&bounds[b].0.x));
     let mut pairs = Vec::new();
     for (k, &a) in order.iter().enumerate() {
-        let near =
-            order[k + 1..].iter().take_while(|&&b| bounds[b].0.x <= bounds[a].1.x + tolerance);
+        let near = order[k + 1..].iter().take_while(|&&b| bounds[b].0.x <= bounds[a].1.x + close);
         for &b in near {
             let gap = (bounds[a].0 - bounds[b].1).max(bounds[b].0 - bounds[a].1).max_element();
-            if gap <= tolerance {
+            if gap <= close {
                 pairs.extend([(a, b), (b, a)]);
             }
         }
@@ -34,7 +51,8 @@ fn neighbours(surfaces: &[Surface], tolerance: f64) -> Vec<(usize, usize)> {
 }
 
 /// The lines along which `other` meets the front or the plane of `receiver`, inside of it.
-fn contacts(receiver: &Surface, other: &Surface, tolerance: f64) -> Vec<Segment> {
+fn contacts(receiver: &Surface, other: &Surface, near: Near) -> Vec<Segment> {
+    let Near { tolerance, close } = near;
     let heights = |ring: &[_]| -> Vec<f64> {
         let height = |&p: &_| receiver.plane.height(other.plane.lift(p));
         ring.iter().map(height).map(|h: f64| if h.abs() <= tolerance { 0.0 } else { h }).collect()
@@ -42,20 +60,30 @@ fn contacts(receiver: &Surface, other: &Surface, tolerance: f64) -> Vec<Segment>
     let heights: Vec<Vec<f64>> = other.rings.iter().map(|ring| heights(ring)).collect();
     let all = || heights.iter().flatten();
     let behind = all().all(|&h| h <= 0.0) && all().any(|&h| h < 0.0);
-    if behind || all().all(|&h| h > 0.0) {
+    let above = all().all(|&h| h > 0.0);
+    let hovers = above
+        && all().all(|&h| h <= close)
+        && other.plane.normal.dot(receiver.plane.normal) < -PARALLEL;
+    if behind || (above && !hovers) {
         return Vec::new();
     }
-    let mut segments = touching_edges(receiver, other, &heights);
+    let lies = |h: f64| h == 0.0 || hovers;
+    let mut segments = edges_where(lies, receiver, other, &heights);
     segments.extend(piercing_line(receiver, other, &heights));
     segments.into_iter().flat_map(|segment| inside(receiver, segment, tolerance)).collect()
 }
 
-/// Edges of `other` that lie in the receiver's plane.
-fn touching_edges(receiver: &Surface, other: &Surface, heights: &[Vec<f64>]) -> Vec<Segment> {
+/// Edges of `other`, seen along the receiver's normal, whose ends are at certain heights.
+fn edges_where(
+    lies: impl Fn(f64) -> bool,
+    receiver: &Surface,
+    other: &Surface,
+    heights: &[Vec<f64>],
+) -> Vec<Segment> {
     let mut segments = Vec::new();
     for (ring, heights) in other.rings.iter().zip(heights) {
         for (k, edge) in edges(ring).enumerate() {
-            if heights[k] == 0.0 && heights[(k + 1) % heights.len()] == 0.0 {
+            if lies(heights[k]) && lies(heights[(k + 1) % heights.len()]) {
                 segments.push(edge.map(|p| receiver.plane.flatten(other.plane.lift(p))));
             }
         }

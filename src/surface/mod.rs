@@ -44,7 +44,7 @@ pub struct Surface {
     pub plane: Plane,
     /// Outer ring first, counter-clockwise; holes clockwise; coordinates of the plane, m.
     pub rings: Vec<Ring>,
-    /// Lines along which another surface meets this one.
+    /// Lines along which another surface meets this one, or hovers close over it.
     pub contacts: Vec<Segment>,
     /// Diffuse reflectance ρ, 0..=0.99, without the texture's part.
     pub reflectance: Rgb,
@@ -81,7 +81,7 @@ pub fn faces_of(scene: &Scene) -> Surfaces {
 }
 
 fn with_contacts(mut surfaces: Surfaces) -> Surfaces {
-    contact::find_contacts(&mut surfaces.list, surfaces.tolerance);
+    contact::find_contacts(&mut surfaces.list, surfaces.extent, surfaces.tolerance);
     surfaces
 }
 
