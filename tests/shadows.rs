@@ -50,15 +50,16 @@ fn lines_bound_umbra_and_penumbra() {
 fn elements_are_cut_along_the_border_of_a_sharp_shadow() {
     let surfaces = floor_with(square);
     let settings = Settings { tolerance: 0.02, max_level: 8, ..coarse() };
-    let mesh = solve(&surfaces, &settings).mesh;
-    let place = |v: &Vertex| surfaces.list[v.surface as usize].plane.lift(v.position);
-    let places: Vec<DVec3> = mesh.vertices.iter().map(place).collect();
-    let near = |x: f64| {
-        let is_near = |p: &&DVec3| p.y == 0.0 && p.z.abs() < 0.25 && (p.x.abs() - x).abs() < 0.004;
-        places.iter().filter(is_near).count()
+    // Cuts end at sixteenths of edges.
+    let near_umbra = |settings: &Settings| {
+        let mesh = solve(&surfaces, settings).mesh;
+        let place = |v: &Vertex| surfaces.list[v.surface as usize].plane.lift(v.position);
+        let is_near = |p: &DVec3| p.y == 0.0 && p.z.abs() < 0.25 && (p.x.abs() - 0.3).abs() < 0.004;
+        mesh.vertices.iter().map(place).filter(is_near).count()
     };
-    // Of the floor's own grid, no line runs there.
-    assert!(near(0.3) >= 8, "{} vertices along the umbra", near(0.3));
+    let without = near_umbra(&Settings { discontinuity_lines: false, ..settings.clone() });
+    let with = near_umbra(&settings);
+    assert!(with >= without + 6, "{with} vertices along the umbra, {without} without lines");
 }
 
 #[test]

@@ -21,8 +21,12 @@ const LEAST_SHARE: f64 = 0.6;
 /// Ends of a cut nearer to a corner than this share of an edge are moved there.
 const SNAP: f64 = 0.15;
 
-/// Cuts end at multiples of this share of an edge, so that those of neighbours meet or keep apart.
-const NOTCHES: f64 = 16.0;
+/// Numbers of equal parts of an edge between which neighbours, dividing it again and again, may have
+/// vertices. Ends of cuts nearer to one than an eighth of a part are moved there: less would be slivers.
+const HALVINGS: [f64; 3] = [2.0, 4.0, 8.0];
+
+/// All other cuts end at multiples of this share of an edge, so that those of neighbours meet or keep apart.
+const NOTCHES: f64 = 256.0;
 
 /// Sine of the least angle between a cut and an edge: 15°.
 const LEAST_SINE: f64 = 0.26;
@@ -202,8 +206,15 @@ fn snapped(Crossing { edge, share }: Crossing, n: usize) -> Crossing {
     match share {
         share if share < SNAP => Crossing { edge, share: 0.0 },
         share if share > 1.0 - SNAP => Crossing { edge: (edge + 1) % n, share: 0.0 },
-        share => Crossing { edge, share: (share * NOTCHES).round() / NOTCHES },
+        share => Crossing { edge, share: notch(share) },
     }
+}
+
+/// The nearest of the places where cuts may end between the corners of an edge, as a share of it.
+fn notch(share: f64) -> f64 {
+    let nearest = |parts: f64| (share * parts).round() / parts;
+    let is_near = |parts: &f64| (share - nearest(*parts)).abs() * parts < 0.125;
+    nearest(HALVINGS.into_iter().find(is_near).unwrap_or(NOTCHES))
 }
 
 /// Sine of the smallest angle between a cut from or to a place on the border, and the edges there.
