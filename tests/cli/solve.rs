@@ -51,6 +51,23 @@ fn json_tells_where_the_power_has_gone() {
 }
 
 #[test]
+fn shadows_can_be_found_in_plainer_ways() {
+    let place = Place::new();
+    let scene = scene("blocker.obj");
+    let divided = |more: &[&str]| {
+        let solve = ["solve", &scene, "--json", "-o", "a.glb", "--quality", "draft"];
+        let json = place.run(&[&solve[..], more].concat()).done().json();
+        let counts = ["discontinuity", "shadow_edge"].map(|why| json["divided"][why].as_u64());
+        (counts.map(Option::unwrap_or_default), json)
+    };
+    let ([lines, _], _) = divided(&[]);
+    let ([none, edges], json) = divided(&["--no-discontinuity-lines", "--shadow-rays", "16"]);
+    assert!(lines > 0 && none == 0 && edges > 0, "{lines}, {none}, {edges}");
+    assert_eq!(json["settings"]["discontinuity_lines"], false);
+    assert_eq!(json["settings"]["shadow_rays"], 16);
+}
+
+#[test]
 fn quiet_says_nothing() {
     let place = Place::new();
     let outcome = place.solve(&["--quiet", "-o", "a.glb"]).done();
