@@ -81,9 +81,7 @@ impl Solve {
     pub(crate) fn run(self) -> Result<(), Failure> {
         let settings = self.accuracy.settings();
         settings.validate()?;
-        outputs::check(&self.scene.path, &self.output, &self.image, self.history.as_deref())?;
-        self.page.check()?;
-        self.picture.views(&self.image)?;
+        self.check()?;
         self.report.use_threads()?;
         let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.report);
@@ -142,6 +140,14 @@ impl Solve {
             written: self.written().cloned().collect(),
             notes: scene.notes,
         })
+    }
+
+    /// Whether what is asked for can be written.
+    fn check(&self) -> Result<(), Failure> {
+        outputs::check(&self.scene.path, &self.output, &self.image, self.history.as_deref())?;
+        self.page.check()?;
+        self.picture.views(&self.image)?;
+        Ok(())
     }
 
     /// The files to write.

@@ -11,7 +11,7 @@ const PLACES: usize = 1000;
 const ERRORS_SHOWN: f64 = 0.95;
 
 /// The least end of a logarithmic scale of radiosity as a share of the upper end, and the greatest.
-const LOW_SHARES: [f64; 2] = [1e-3, 0.1];
+const LOW_SHARES: [f64; 2] = [0.01, 0.1];
 
 /// Ends of a logarithmic scale of radiosity, W/m², that lamps and the darkest corners do not stretch.
 pub(super) fn radiosity_range(mesh: &TriMesh) -> [f64; 2] {
@@ -22,13 +22,13 @@ pub(super) fn radiosity_range(mesh: &TriMesh) -> [f64; 2] {
     [low.clamp(LOW_SHARES[0] * high, LOW_SHARES[1] * high), high]
 }
 
-/// The value that the middle nine tenths and a half of `errors` keep within, rounded up to one digit of 1, 2 or 5.
+/// What 95 of 100 `errors` keep within, rounded up to 1, 2 or 5 times a power of ten; 1 at most.
 pub(super) fn error_limit(errors: &[f64]) -> f64 {
     let mut sizes: Vec<f64> = errors.iter().map(|e| e.abs()).filter(|e| e.is_finite()).collect();
     sizes.sort_by(f64::total_cmp);
     let at = (ERRORS_SHOWN * sizes.len() as f64) as usize;
     match sizes.get(at) {
-        Some(&size) if size > 1e-6 => map::round_above(size),
+        Some(&size) if size > 1e-6 => map::round_above(size).min(1.0),
         _ => 1e-2,
     }
 }

@@ -80,8 +80,8 @@
 
     void main() {
       vec3 c = shown();
-      // Dark lines on bright surfaces, bright ones on dark.
-      vec3 ink = vec3(luminance(c) > 0.35 ? 0.0 : 1.0);
+      // Dark lines on bright surfaces, bright ones on dark, as in the pictures.
+      vec3 ink = vec3(luminance(pow(c, vec3(2.2))) > 0.1 ? 0.0 : 1.0);
       colour = vec4(mix(c, ink, 0.6 * mesh * line()), 1.0);
     }`;
 

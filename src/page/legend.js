@@ -1,7 +1,7 @@
 // What colours stand for: bars with marks, and swatches.
 {
   const { element, short } = radiosity;
-  const FEWEST_MARKS = 3;
+  const MOST_MARKS = 9;
 
   const css = ([red, green, blue]) => `rgb(${red} ${green} ${blue})`;
 
@@ -11,7 +11,7 @@
     return [...map.subarray(first, first + 3)];
   }
 
-  // Round values between two positive ends, one, three or all of 1, 2, 5 a decade.
+  // Round values between two positive ends: 1, 2 and 5 of every decade, or if those are many, 1 alone.
   function logarithmicMarks(low, high) {
     const marks = (digits) => {
       const found = [];
@@ -20,8 +20,8 @@
       }
       return found.filter((mark) => mark >= low * 0.999 && mark <= high * 1.001);
     };
-    const sparse = marks([1]);
-    return sparse.length >= FEWEST_MARKS ? sparse : marks([1, 2, 5]);
+    const dense = marks([1, 2, 5]);
+    return dense.length <= MOST_MARKS ? dense : marks([1]);
   }
 
   // A bar of colours with marks `[[place, text], ...]` under it.

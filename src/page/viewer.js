@@ -104,8 +104,8 @@
       this.legend = element("div", { class: "legend" });
       const last = this.data.steps.length - 1;
       this.steps.set({ name: "Step", min: 0, max: last, step: 1 });
-      const controls = element("div", { class: "controls" }, this.mode.row, this.mesh.row, reset);
-      const scales = element("div", { class: "controls" }, this.legend, this.slider.row, last > 0 ? this.steps.row : null);
+      const controls = element("div", { class: "controls" }, this.mode.row, this.mesh.row, reset, last > 0 ? this.steps.row : null);
+      const scales = element("div", { class: "controls" }, this.legend, this.slider.row);
       this.figure.querySelector(".stage").after(controls, scales);
     }
 

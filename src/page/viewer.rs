@@ -94,7 +94,7 @@ pub fn viewer(viewer: &Viewer<'_>) -> Markup {
                 noscript { p { "With scripts allowed, this can be turned and looked at in other ways." } }
             }
             figcaption {
-                @if !viewer.caption.is_empty() { (viewer.caption) " " }
+                @if !viewer.caption.is_empty() { (viewer.caption) }
                 span.hint {
                     "Drag to turn, with shift or the right button to shift; wheel or pinch to zoom; \
                      arrow keys, + and \u{2212} do the same, 0 goes back."
