@@ -11,6 +11,8 @@
       this.line = element("div", { class: "line", role: "slider", tabindex: 0, "aria-label": "Border between the pictures", "aria-valuemin": 0, "aria-valuemax": 100 });
       this.stage.append(this.line);
       this.stage.after(this.controls());
+      // Enlarged, pictures would be blurred.
+      this.stage.style.maxWidth = `${figure.querySelector("img").getAttribute("width")}px`;
       figure.classList.add("live");
       this.listen();
       this.change({});

@@ -19,8 +19,8 @@ pub struct WipePicture<'a> {
 }
 
 /// Pictures of one size on top of each other: a border to drag shows one of them on its left and
-/// another on its right; of three or more, buttons choose which. Without scripts, and on paper
-/// without having been touched, they stand side by side.
+/// another on its right; of three or more, buttons choose which. Without scripts, and on paper, they
+/// stand side by side.
 pub fn wipe(pictures: &[WipePicture<'_>], caption: &str) -> Markup {
     html! {
         figure.wipe {
