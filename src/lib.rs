@@ -1,7 +1,7 @@
 //! Adaptive radiosity: a scene of diffuse surfaces in, a crack-free mesh that carries its light out.
 //!
 //! ```text
-//! file → Scene → Surfaces → Mesh ⇄ direct light, transport ⇄ solver → TriMesh → GLB · picture
+//! file → Scene → Surfaces → Mesh ⇄ direct light, transport ⇄ solver → TriMesh → GLB · picture · page
 //! ```
 //!
 //! | step | what it promises |
@@ -13,11 +13,12 @@
 //! | [`reconstruct()`] → [`TriMesh`] | radiosity at the vertices of a conforming triangulation |
 //! | [`form_factor::assemble`] → [`form_factor::FormFactors`] | beside all that: the matrix itself, of patches by whole faces ([`faces_of`]) or surfaces |
 //! | [`export::save`], [`render::render`] | files for others, pictures |
+//! | [`page::viewer()`] and others, [`page::document`] | pages to share, with the mesh to turn in them |
 //!
 //! The modules, in the order in which data moves; one may use those to its left, never those to its right:
 //!
 //! scene → surface → mesh → visibility → `form_factor` → direct → refine → solver → reconstruct →
-//! tone → export, render
+//! tone → export, render → page
 //!
 //! # Words and units
 //!
@@ -82,6 +83,8 @@ pub mod tone;
 
 pub mod export;
 pub mod render;
+
+pub mod page;
 
 pub use error::{Error, Result};
 pub use reconstruct::{TriMesh, reconstruct};

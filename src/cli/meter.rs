@@ -102,7 +102,12 @@ impl Meter {
         self.timings.push(Timing { phase, seconds });
     }
 
-    /// The phases that have ended, in their order.
+    /// The phases that have ended so far, in their order.
+    pub(crate) fn timings(&self) -> &[Timing] {
+        &self.timings
+    }
+
+    /// All phases, in their order, the last one ended.
     pub(crate) fn into_timings(mut self) -> Vec<Timing> {
         self.end();
         self.timings

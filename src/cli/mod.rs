@@ -11,8 +11,10 @@ mod interrupt;
 mod meter;
 mod options;
 mod outputs;
+mod page;
 mod record;
 mod render;
+mod snapshots;
 mod solve;
 mod summary;
 

@@ -15,6 +15,7 @@ use super::meter::Meter;
 use super::options::{
     AccuracyOptions, CameraChoice, PictureOptions, ReportOptions, SceneOptions, display,
 };
+use super::page::{Account, PageOptions};
 use super::record::{CameraRecord, SettingsRecord, stamped};
 use super::summary::{Outcome, Summary};
 use super::{console, outputs};
@@ -49,6 +50,9 @@ pub(crate) struct Solve {
     history: Option<PathBuf>,
 
     #[command(flatten)]
+    page: PageOptions,
+
+    #[command(flatten)]
     accuracy: AccuracyOptions,
 
     #[command(flatten)]
@@ -70,19 +74,19 @@ Examples:
   radiosity solve kitchen.obj --units cm --quality draft --image first-look.png
   radiosity solve room.glb -o room-lit.ply --image mesh.png --view wireframe --tolerance 1.5%
   radiosity solve kitchen.obj --image final.png --image mesh.png --view light,reason --final-gather
+  radiosity solve scenes/office.obj --quality draft --html office.html --snapshots 1,2,24,100
   radiosity solve scenes/blocker.obj --uniform 0.1 --image uniform.png --eye 1,2,3 --target 0,0,0";
 
 impl Solve {
     pub(crate) fn run(self) -> Result<(), Failure> {
         let settings = self.accuracy.settings();
         settings.validate()?;
-        outputs::check(&self.scene.path, &self.output, &self.image, self.history.as_deref())?;
-        self.picture.views(&self.image)?;
+        self.check()?;
         self.report.use_threads()?;
         let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.report);
         if self.written().next().is_none() {
-            meter.tell("nothing will be written; -o FILE.glb and --image FILE.png do that");
+            meter.tell("nothing will be written; -o FILE.glb, --image FILE.png and --html FILE.html do that");
         }
 
         meter.begin("reading");
@@ -117,9 +121,20 @@ impl Solve {
         if let Some(path) = &self.history {
             export::save_history(&solution.history, path)?;
         }
+        let summary = Summary::new(&surfaces, &solution, &mesh);
+        let account = Account {
+            scene: &self.scene.path,
+            subject,
+            camera: &camera,
+            display: display(&mesh, exposure),
+            summary: &summary,
+            settings: &settings_record,
+            notes: &scene.notes,
+        };
+        self.page.write(&account, &self.picture, &interrupt, &mut meter)?;
         self.report_on(&Outcome {
             scene: self.scene.path.clone(),
-            summary: Summary::new(&surfaces, &solution, &mesh),
+            summary,
             settings: settings_record,
             seconds: meter.into_timings(),
             written: self.written().cloned().collect(),
@@ -127,9 +142,18 @@ impl Solve {
         })
     }
 
+    /// Whether what is asked for can be written.
+    fn check(&self) -> Result<(), Failure> {
+        outputs::check(&self.scene.path, &self.output, &self.image, self.history.as_deref())?;
+        self.page.check()?;
+        self.picture.views(&self.image)?;
+        Ok(())
+    }
+
     /// The files to write.
     fn written(&self) -> impl Iterator<Item = &PathBuf> {
-        self.output.iter().chain(&self.image).chain(&self.history)
+        let meshes_and_pictures = self.output.iter().chain(&self.image);
+        meshes_and_pictures.chain(&self.history).chain(&self.page.html)
     }
 
     fn report_on(&self, outcome: &Outcome) -> Result<(), Failure> {

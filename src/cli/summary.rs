@@ -17,48 +17,48 @@ use super::record::SettingsRecord;
 #[derive(Debug, Serialize)]
 pub(crate) struct Summary {
     /// False if the solver was stopped before it was done.
-    finished: bool,
+    pub(crate) finished: bool,
     /// `converged`, `shot limit` or `interrupted`.
-    stop: &'static str,
-    surfaces: usize,
-    patches: usize,
-    elements: usize,
-    leaves: usize,
-    divided: Divided,
-    vertices: usize,
-    triangles: usize,
-    shots: usize,
-    hemicubes: Hemicubes,
-    energy: Balance,
+    pub(crate) stop: &'static str,
+    pub(crate) surfaces: usize,
+    pub(crate) patches: usize,
+    pub(crate) elements: usize,
+    pub(crate) leaves: usize,
+    pub(crate) divided: Divided,
+    pub(crate) vertices: usize,
+    pub(crate) triangles: usize,
+    pub(crate) shots: usize,
+    pub(crate) hemicubes: Hemicubes,
+    pub(crate) energy: Balance,
 }
 
 /// Elements divided, by reason.
 #[derive(Debug, Default, Serialize)]
-struct Divided {
-    uniform: usize,
-    gradient: usize,
-    discontinuity: usize,
-    shadow_edge: usize,
-    contact: usize,
+pub(crate) struct Divided {
+    pub(crate) uniform: usize,
+    pub(crate) gradient: usize,
+    pub(crate) discontinuity: usize,
+    pub(crate) shadow_edge: usize,
+    pub(crate) contact: usize,
 }
 
 /// Hemicubes looked through.
 #[derive(Debug, Serialize)]
-struct Hemicubes {
-    patches: usize,
-    vertices: usize,
+pub(crate) struct Hemicubes {
+    pub(crate) patches: usize,
+    pub(crate) vertices: usize,
 }
 
 /// Powers, W per channel.
 #[derive(Debug, Serialize)]
-struct Balance {
-    emitted: [f64; 3],
-    absorbed: [f64; 3],
-    on_backs: [f64; 3],
-    escaped: [f64; 3],
-    unshot: [f64; 3],
+pub(crate) struct Balance {
+    pub(crate) emitted: [f64; 3],
+    pub(crate) absorbed: [f64; 3],
+    pub(crate) on_backs: [f64; 3],
+    pub(crate) escaped: [f64; 3],
+    pub(crate) unshot: [f64; 3],
     /// Share of the emitted power.
-    imbalance: f64,
+    pub(crate) imbalance: f64,
 }
 
 /// A summary with what the command knows beside it.

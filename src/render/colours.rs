@@ -13,7 +13,7 @@ pub(super) struct Swatch {
 /// Colours without an order, sRGB-coded, of [Okabe and Ito 2008], grey first.
 ///
 /// [Okabe and Ito 2008]: https://jfly.uni-koeln.de/color/
-pub(super) const CATEGORIES: [[u8; 3]; 8] = [
+pub(crate) const CATEGORIES: [[u8; 3]; 8] = [
     [187, 187, 187],
     [204, 121, 167],
     [86, 180, 233],
@@ -36,7 +36,7 @@ pub(super) fn steps(count: usize) -> impl Iterator<Item = [u8; 3]> {
 /// sRGB-coded colour, 0..=1, at a place along a scale, 0..=1: [viridis], which is even to the eye.
 ///
 /// [viridis]: https://bids.github.io/colormap/
-pub(super) fn at(place: f64) -> Rgb {
+pub(crate) fn at(place: f64) -> Rgb {
     let colour = colorous::VIRIDIS.eval_continuous(place);
     Rgb::new(colour.r.into(), colour.g.into(), colour.b.into()) / 255.0
 }

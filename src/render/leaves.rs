@@ -7,19 +7,30 @@ use crate::mesh::{ElementId, Mesh, Reason, Vertex};
 use crate::refine::Oracle;
 
 /// Names of what makes leaves, in the order of their colours.
-const REASONS: [&str; 6] =
+pub(crate) const REASONS: [&str; 6] =
     ["whole patch", "uniform mesh", "gradient", "shadow edge", "contact", "discontinuity line"];
 
 /// Colours of elements by their level, linear, and what they stand for.
 pub(super) fn levels(mesh: &Mesh) -> (Vec<Rgb>, Vec<Swatch>) {
-    let deepest = mesh.leaves().map(|leaf| mesh[leaf].level).max().unwrap_or(0);
+    let by_element = level_numbers(mesh);
+    let deepest = by_element.iter().copied().max().unwrap_or(0);
     let names = (0..=deepest).map(|level| level.to_string());
-    let by_element = mesh.elements.iter().map(|element| element.level as usize);
-    coloured(by_element, names.zip(colours::steps(deepest as usize + 1)).collect())
+    coloured(by_element.into_iter(), names.zip(colours::steps(deepest + 1)).collect())
+}
+
+/// Levels by element.
+pub(crate) fn level_numbers(mesh: &Mesh) -> Vec<usize> {
+    mesh.elements.iter().map(|element| element.level as usize).collect()
 }
 
 /// Colours of elements by why their parents were divided, linear, and what they stand for.
 pub(super) fn reasons(mesh: &Mesh) -> (Vec<Rgb>, Vec<Swatch>) {
+    let names = REASONS.iter().map(|&name| name.to_owned());
+    coloured(reason_numbers(mesh).into_iter(), names.zip(colours::CATEGORIES).collect())
+}
+
+/// Why the parents of elements were divided, by element, as indices into [`REASONS`].
+pub(crate) fn reason_numbers(mesh: &Mesh) -> Vec<usize> {
     let mut by_element = vec![0; mesh.elements.len()];
     for element in &mesh.elements {
         for child in &element.children {
@@ -33,8 +44,7 @@ pub(super) fn reasons(mesh: &Mesh) -> (Vec<Rgb>, Vec<Swatch>) {
             };
         }
     }
-    let names = REASONS.iter().map(|&name| name.to_owned());
-    coloured(by_element.into_iter(), names.zip(colours::CATEGORIES).collect())
+    by_element
 }
 
 /// Looks colours up; the key has only those that are there.

@@ -3,6 +3,7 @@
 use super::colours;
 use super::picture::Picture;
 use super::scale::Scale;
+pub(crate) use super::scale::round_above;
 use super::view::View;
 use crate::colour::Rgb;
 
@@ -83,6 +84,13 @@ impl Map {
 
 /// A scale for the bulk of `values`, which rise.
 fn automatic_scale(values: &[f64]) -> Scale {
+    let [low, high] = bulk(values);
+    Scale::of_values(low, high)
+}
+
+/// Ends of the bulk of `values`, which rise: without the least and the greatest hundredth, and
+/// without lamps much brighter than the rest.
+pub(crate) fn bulk(values: &[f64]) -> [f64; 2] {
     let at = |share: f64| {
         let index = (share * values.len() as f64) as usize;
         values.get(index).copied().unwrap_or(0.0)
@@ -91,7 +99,7 @@ fn automatic_scale(values: &[f64]) -> Scale {
     let below_lamps = steps
         .take_while(|share| share + LAMP_STEP < 1.0)
         .find(|share| at(share + LAMP_STEP) > LAMP_RATIO * at(*share));
-    Scale::of_values(at(TAIL), at(below_lamps.unwrap_or(1.0 - TAIL)))
+    [at(TAIL), at(below_lamps.unwrap_or(1.0 - TAIL))]
 }
 
 /// sRGB-coded colour, 0..=1, of a pixel that the mesh covers by a share with `colour`.

@@ -4,14 +4,14 @@
 
 mod automatic_camera;
 mod caster;
-mod colours;
+pub(crate) mod colours;
 mod display;
 mod final_gather;
-mod leaves;
+pub(crate) mod leaves;
 mod legend;
 mod letters;
 mod lines;
-mod map;
+pub(crate) mod map;
 mod picture;
 mod rays;
 mod save;
@@ -24,6 +24,6 @@ mod view;
 pub use automatic_camera::automatic_camera;
 pub use display::{Display, displayed};
 pub use picture::{Picture, RenderOptions, Subject, render, render_solved};
-pub use save::{check_writable, save};
+pub use save::{check_writable, png, save};
 pub use shade::Solved;
 pub use view::View;

@@ -28,6 +28,14 @@ pub fn save(picture: &Picture, path: &Path, display: &Display) -> Result<()> {
     file::replace(path, |out| image.write_to(out, format).map_err(io::Error::other))
 }
 
+/// The bytes of a PNG of `picture` as `display` shows it, in 8-bit sRGB.
+pub fn png(picture: &Picture, display: &Display) -> Vec<u8> {
+    let mut bytes = io::Cursor::new(Vec::new());
+    let written = displayed(picture, display).write_to(&mut bytes, ImageFormat::Png);
+    debug_assert!(written.is_ok(), "memory takes every byte of a picture");
+    bytes.into_inner()
+}
+
 /// Finds out before long work whether [`save`] could write to `path`; makes missing directories.
 ///
 /// # Errors

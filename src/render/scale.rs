@@ -79,7 +79,7 @@ impl Scale {
 }
 
 /// The least of 1, 2, 5 times a power of ten that is not below `value`, which is positive.
-fn round_above(value: f64) -> f64 {
+pub(crate) fn round_above(value: f64) -> f64 {
     let power = 10_f64.powf(value.log10().floor());
     let digit = [1.0, 2.0, 5.0].into_iter().find(|digit| digit * power >= value * (1.0 - 1e-9));
     digit.unwrap_or(10.0) * power

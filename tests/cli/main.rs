@@ -4,6 +4,7 @@ mod config;
 mod form_factors;
 #[cfg(unix)]
 mod interrupt;
+mod page;
 mod solve;
 mod usage;
 mod views;

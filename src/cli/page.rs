@@ -1,0 +1,187 @@
+//! `--html`: a solution as a page to share.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use radiosity::Result;
+use radiosity::page::{self, Cell, Markup, Model, Step, Table, Viewer, html};
+use radiosity::render::{Display, Subject, View, png};
+
+use super::interrupt::Interrupt;
+use super::meter::{Meter, Timing};
+use super::options::{CameraChoice, PictureOptions};
+use super::record::SettingsRecord;
+use super::snapshots;
+use super::summary::Summary;
+
+/// The page to write, and what may be seen in it.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Writing")]
+pub(crate) struct PageOptions {
+    /// Page to write: the lit mesh to turn in any browser, its picture and figures, in one file
+    ///
+    /// It needs no network and no other file. Radiosity in false colours, levels of elements, why they
+    /// were made, and the triangles are shown at will.
+    #[arg(long, value_name = "FILE.html")]
+    pub(crate) html: Option<PathBuf>,
+
+    /// With --html: the light after this many shots too, to step through: 1,2,24,100
+    ///
+    /// The first shot is that of all lamps, each further one that of the patch with the most unshot
+    /// light; the rest is estimated as ambient light. Each takes about as long as the solution.
+    #[arg(long, value_name = "SHOTS", value_delimiter = ',', requires = "html")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) snapshots: Vec<u32>,
+}
+
+/// What a page tells of a solution.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Account<'a> {
+    pub(crate) scene: &'a Path,
+    pub(crate) subject: Subject<'a>,
+    pub(crate) camera: &'a CameraChoice,
+    pub(crate) display: Display,
+    pub(crate) summary: &'a Summary,
+    pub(crate) settings: &'a SettingsRecord,
+    pub(crate) notes: &'a [String],
+}
+
+impl PageOptions {
+    /// Whether the page could be written.
+    pub(crate) fn check(&self) -> Result<()> {
+        self.html.as_deref().map_or(Ok(()), page::check_writable)
+    }
+
+    /// Writes the page, if one is asked for.
+    pub(crate) fn write(
+        &self,
+        account: &Account<'_>,
+        options: &PictureOptions,
+        interrupt: &Interrupt,
+        meter: &mut Meter,
+    ) -> Result<()> {
+        let Some(path) = &self.html else {
+            return Ok(());
+        };
+        let mut steps = self.snapshots(account, interrupt, meter)?;
+        meter.begin("page");
+        steps.push(last_step(account));
+        let camera = options.camera(account.camera, account.subject.mesh);
+        let picture = options.picture(View::Light, account.subject, &camera, |done| {
+            meter.advance("page", done);
+            interrupt.flow()
+        });
+        let still = png(&picture, &account.display);
+        let title = title(account.scene);
+        let viewer = Viewer {
+            steps: &steps,
+            camera: &camera,
+            exposure: account.display.scale,
+            group: "solution",
+            alt: &format!("{title}, lit: {} triangles", account.summary.triangles),
+            caption: "",
+            still: Some(&still),
+        };
+        let body = body(account, &viewer, meter.timings());
+        page::save(&page::document(&title, &body), path)
+    }
+
+    fn snapshots(
+        &self,
+        account: &Account<'_>,
+        interrupt: &Interrupt,
+        meter: &mut Meter,
+    ) -> Result<Vec<Step>> {
+        let Some(solved) = account.subject.solved.filter(|_| !self.snapshots.is_empty()) else {
+            return Ok(Vec::new());
+        };
+        meter.begin("snapshots");
+        snapshots::steps(&self.snapshots, &solved, |done| -> ControlFlow<()> {
+            meter.advance("snapshots", done);
+            interrupt.flow()
+        })
+    }
+}
+
+fn last_step(account: &Account<'_>) -> Step {
+    let Subject { mesh, solved } = account.subject;
+    let model = match solved {
+        Some(solved) => Model::of_solution(mesh, &solved.solution.mesh),
+        None => Model::of_mesh(mesh),
+    };
+    Step { label: format!("end: {}", account.summary.stop), model }
+}
+
+fn title(scene: &Path) -> String {
+    scene.file_stem().unwrap_or(scene.as_os_str()).to_string_lossy().into_owned()
+}
+
+fn body(account: &Account<'_>, viewer: &Viewer<'_>, seconds: &[Timing]) -> Markup {
+    let Account { scene, summary, .. } = account;
+    let total: f64 = seconds.iter().map(|timing| timing.seconds).sum();
+    html! {
+        h1 { (title(scene)) }
+        p.lead {
+            "Lit by adaptive radiosity: " (summary.leaves) " elements, " (summary.triangles)
+            " triangles, " (format!("{total:.1}")) " s."
+        }
+        (page::viewer(viewer))
+        @for note in account.notes { p { "Note: " (note) } }
+        div.columns {
+            div { h2 { "Solution" } (page::facts(&facts(account))) }
+            div { h2 { "Where the power went" } (energy(summary)) h2 { "Time" } (times(seconds)) }
+        }
+    }
+}
+
+fn facts(account: &Account<'_>) -> Vec<(&'static str, String)> {
+    let Account { scene, summary, settings, .. } = account;
+    let divided = &summary.divided;
+    vec![
+        ("Scene", scene.display().to_string()),
+        ("Surfaces", format!("{}, {} patches", summary.surfaces, summary.patches)),
+        ("Elements", format!("{}, {} of them leaves", summary.elements, summary.leaves)),
+        (
+            "Divided",
+            format!(
+                "gradient {}, shadow edge {}, contact {}, uniform {}",
+                divided.gradient, divided.shadow_edge, divided.contact, divided.uniform
+            ),
+        ),
+        ("Mesh", format!("{} triangles, {} vertices", summary.triangles, summary.vertices)),
+        ("Shots", format!("{}, {}", summary.shots, summary.stop)),
+        ("Settings", settings.to_string()),
+        ("Made by", concat!("radiosity ", env!("CARGO_PKG_VERSION")).to_owned()),
+    ]
+}
+
+fn energy(summary: &Summary) -> Markup {
+    let row = |name: &str, power: [f64; 3]| {
+        let watts = power.map(|watts| Cell::number(watts, 4));
+        [Cell::text(name)].into_iter().chain(watts).collect()
+    };
+    let powers = &summary.energy;
+    page::table(&Table {
+        caption: &format!("Imbalance {:.3} % of the emitted power", 100.0 * powers.imbalance),
+        header: &["Power, W", "red", "green", "blue"],
+        rows: vec![
+            row("emitted", powers.emitted),
+            row("absorbed", powers.absorbed),
+            row("on black backs", powers.on_backs),
+            row("escaped", powers.escaped),
+            row("unshot", powers.unshot),
+        ],
+        file: "power.csv",
+    })
+}
+
+fn times(seconds: &[Timing]) -> Markup {
+    let row = |timing: &Timing| vec![Cell::text(timing.phase), Cell::number(timing.seconds, 2)];
+    page::table(&Table {
+        caption: "",
+        header: &["Phase", "seconds"],
+        rows: seconds.iter().map(row).collect(),
+        file: "seconds.csv",
+    })
+}

@@ -1,0 +1,41 @@
+//! Self-contained HTML pages: pictures, tables and lit meshes that can be turned, in one file.
+//!
+//! | component | with scripts | without |
+//! |---|---|---|
+//! | [`viewer()`] | a lit mesh in 3D: light, false colours, levels, reasons, errors, the mesh itself | its picture |
+//! | [`wipe`] | pictures on top of each other, a border to drag between two of them | side by side |
+//! | [`table`] | rows sort by a click on a header; download as CSV | a table |
+//! | [`facts`], [`picture`], [`columns`] | | the same |
+//! | [`data`] | JSON for whoever reads the page by program | |
+//!
+//! [`document`] makes a page of them, [`save`] writes it. A page opens from a disk, asks for nothing
+//! over a network and is not able to: its content security policy forbids it.
+//!
+//! ```
+//! use radiosity::page::{self, html};
+//!
+//! let rows = [("elements", "4 120".to_owned()), ("time", "1.9 s".to_owned())];
+//! let page = page::document("A room", &html! { h1 { "A room" } (page::facts(&rows)) });
+//! assert!(page.into_string().starts_with("<!DOCTYPE html>"));
+//! ```
+
+mod base64;
+mod bulk;
+mod colour_maps;
+mod data;
+mod document;
+mod image;
+mod model;
+mod quantise;
+mod table;
+mod viewer;
+mod wipe;
+
+pub use data::data;
+pub use document::{check_writable, document, save};
+pub use image::{columns, picture};
+pub use maud::{Markup, html};
+pub use model::Model;
+pub use table::{Cell, Table, facts, table};
+pub use viewer::{Step, Viewer, viewer};
+pub use wipe::{WipePicture, wipe};

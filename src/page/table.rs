@@ -1,0 +1,101 @@
+//! Tables of figures.
+
+use maud::{Markup, html};
+
+/// A table that sorts by a click on a header and goes out as CSV.
+#[derive(Clone, Debug)]
+pub struct Table<'a> {
+    /// What it is about, above it; nothing if empty.
+    pub caption: &'a str,
+    /// Names of the columns, with units.
+    pub header: &'a [&'a str],
+    /// Rows, each as long as the header.
+    pub rows: Vec<Vec<Cell>>,
+    /// Name that the CSV is downloaded under.
+    pub file: &'a str,
+}
+
+/// What stands in a table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// Words, sorted as people would.
+    Text(String),
+    /// A number, sorted by its value and written to the CSV in full.
+    Number {
+        /// The value.
+        value: f64,
+        /// What is seen of it.
+        shown: String,
+    },
+    /// Nothing is known.
+    Empty,
+}
+
+impl Cell {
+    /// Words.
+    pub fn text(text: impl Into<String>) -> Self {
+        Self::Text(text.into())
+    }
+
+    /// A number with so many digits behind the point; empty if it is none.
+    pub fn number(value: f64, decimals: usize) -> Self {
+        let shown = format!("{value:.decimals$}");
+        if value.is_finite() { Self::Number { value, shown } } else { Self::Empty }
+    }
+
+    /// A number of things.
+    pub fn count(count: usize) -> Self {
+        Self::Number { value: count as f64, shown: count.to_string() }
+    }
+}
+
+/// The table; without scripts it neither sorts nor downloads.
+pub fn table(table: &Table<'_>) -> Markup {
+    let is_number = |column: usize| {
+        table.rows.iter().any(|row| matches!(row.get(column), Some(Cell::Number { .. })))
+    };
+    html! {
+        figure.table {
+            div.scroll {
+                table data-file=(table.file) {
+                    @if !table.caption.is_empty() { caption { (table.caption) } }
+                    thead {
+                        tr {
+                            @for (column, name) in table.header.iter().enumerate() {
+                                th.number[is_number(column)] scope="col" { (name) }
+                            }
+                        }
+                    }
+                    tbody {
+                        @for row in &table.rows {
+                            tr { @for cell in row { (written(cell)) } }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn written(cell: &Cell) -> Markup {
+    match cell {
+        Cell::Text(text) => html! { td { (text) } },
+        Cell::Number { value, shown } => html! { td.number data-value=(value) { (shown) } },
+        Cell::Empty => html! { td {} },
+    }
+}
+
+/// What is known of something: names and what they are, row by row.
+pub fn facts(rows: &[(&str, String)]) -> Markup {
+    html! {
+        div.scroll {
+            table {
+                tbody {
+                    @for (name, value) in rows {
+                        tr { th scope="row" { (name) } td { (value) } }
+                    }
+                }
+            }
+        }
+    }
+}
