@@ -4,8 +4,8 @@ use std::fmt::{self, Display, Formatter};
 use std::path::PathBuf;
 
 use radiosity::colour::Rgb;
-use radiosity::mesh::Reason;
-use radiosity::reconstruct::TriMesh;
+use radiosity::mesh::Divided;
+use radiosity::reconstruct::{Angles, TriMesh};
 use radiosity::solver::{Energy, Stop};
 use radiosity::{Solution, Surfaces};
 use serde::Serialize;
@@ -27,18 +27,10 @@ pub(crate) struct Summary {
     divided: Divided,
     vertices: usize,
     triangles: usize,
+    angles: Angles,
     shots: usize,
     hemicubes: Hemicubes,
     energy: Balance,
-}
-
-/// Elements divided, by reason.
-#[derive(Debug, Default, Serialize)]
-struct Divided {
-    uniform: usize,
-    gradient: usize,
-    shadow_edge: usize,
-    contact: usize,
 }
 
 /// Hemicubes looked through.
@@ -89,28 +81,14 @@ impl Summary {
             patches: solution.mesh.patches.len(),
             elements: elements.len(),
             leaves: elements.iter().filter(|element| element.is_leaf()).count(),
-            divided: Divided::new(elements.iter().filter_map(|element| element.reason)),
+            divided: solution.mesh.divided(),
             vertices: mesh.positions.len(),
             triangles: mesh.triangles.len(),
+            angles: mesh.angles(),
             shots: solution.shots,
             hemicubes: Hemicubes { patches, vertices },
             energy: Balance::from(&solution.energy),
         }
-    }
-}
-
-impl Divided {
-    fn new(reasons: impl Iterator<Item = Reason>) -> Self {
-        let mut divided = Self::default();
-        for reason in reasons {
-            *match reason {
-                Reason::Uniform => &mut divided.uniform,
-                Reason::Gradient => &mut divided.gradient,
-                Reason::ShadowEdge => &mut divided.shadow_edge,
-                Reason::Contact => &mut divided.contact,
-            } += 1;
-        }
-        divided
     }
 }
 
@@ -143,6 +121,8 @@ impl Display for Outcome {
             divided.gradient, divided.shadow_edge, divided.contact, divided.uniform
         )?;
         writeln!(f, "mesh       {} triangles, {} vertices", s.triangles, s.vertices)?;
+        let Angles { smallest, below_ten, .. } = s.angles;
+        writeln!(f, "smallest angle {smallest:.1}°, {:.1} % below 10°", 100.0 * below_ten)?;
         writeln!(f, "shots      {}", s.shots)?;
         writeln!(f, "hemicubes  patches {}, vertices {}", hemicubes.patches, hemicubes.vertices)?;
         write!(f, "{}", s.energy)?;

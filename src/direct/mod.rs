@@ -4,6 +4,7 @@
 
 mod lines;
 mod punctual;
+mod tally;
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -17,6 +18,7 @@ use crate::surface::cut::{Cuts, convex_pieces};
 use crate::visibility::{HalfSpace, Occluders, Pieces, Polygon};
 
 use punctual::Source;
+use tally::Tally;
 
 /// All emitters of a scene.
 #[derive(Clone, Debug)]
@@ -25,6 +27,7 @@ pub struct Lamps {
     points: Vec<Light>,
     /// Rows of cells to each triangle of a light that is always sampled.
     rows: Option<u32>,
+    tally: Tally,
 }
 
 /// A convex polygon that emits from its front.
@@ -61,7 +64,7 @@ impl Lamps {
             }
         }
         areas.retain(|lamp| lamp.exitance.max_element() > 0.0);
-        Self { areas, points: surfaces.lights.clone(), rows: None }
+        Self { areas, points: surfaces.lights.clone(), rows: None, tally: Tally::default() }
     }
 
     /// With [`Settings::shadow_rays`](crate::settings::Settings::shadow_rays): what hides a polygon is found by about
@@ -77,18 +80,36 @@ impl Lamps {
         self.areas.is_empty() && self.points.is_empty()
     }
 
+    /// How often light has been evaluated so far: pairs of a place and a lamp, or convex piece of one, that
+    /// shines there unless something hides it.
+    pub fn evaluations(&self) -> u64 {
+        self.tally.evaluations()
+    }
+
+    /// Shadow rays so far: to lights that are points, and to others where exact cutting has given up.
+    pub fn rays(&self) -> u64 {
+        self.tally.rays()
+    }
+
     /// What arrives at a place with unit `normal`.
     pub fn shine(&self, occluders: &Occluders, place: DVec3, normal: DVec3) -> Direct {
         let mut light = Direct::default();
+        let (mut evaluations, mut rays) = (0, 0);
         for lamp in &self.areas {
             let unoccluded = lamp.reach(place, normal);
             if !unoccluded.is_empty() {
                 let all = point_to_polygon_above(place, normal, &unoccluded);
-                let seen = match self.rows {
-                    Some(rows) => sampled(occluders, (place, normal), &unoccluded, rows),
+                let exact = match self.rows {
+                    Some(_) => None,
                     None => lamp.seen(occluders, (place, normal), &unoccluded),
                 };
-                let seen = seen.min(all);
+                let by_rays = || {
+                    let rows = self.rows.unwrap_or(STRATA);
+                    rays += u64::from(rows * rows) * (unoccluded.len() as u64 - 2);
+                    sampled(occluders, (place, normal), &unoccluded, rows)
+                };
+                let seen = exact.unwrap_or_else(by_rays).min(all);
+                evaluations += 1;
                 light.unoccluded += lamp.exitance * all;
                 light.irradiance += lamp.exitance * seen;
             }
@@ -96,6 +117,8 @@ impl Lamps {
         for point in &self.points {
             if let Some((irradiance, source)) = punctual::irradiance(point, place, normal) {
                 light.unoccluded += irradiance;
+                evaluations += 1;
+                rays += 1;
                 let far_end = match source {
                     Source::Position(position) => position,
                     Source::Direction(direction) => place + direction * occluders.extent(),
@@ -105,6 +128,7 @@ impl Lamps {
                 }
             }
         }
+        self.tally.add(evaluations, rays);
         light
     }
 }
@@ -136,15 +160,17 @@ impl AreaLamp {
         horizon.clip(&self.corners)
     }
 
-    /// Form factor of the part that is not hidden.
-    fn seen(&self, occluders: &Occluders, (place, normal): (DVec3, DVec3), above: &[DVec3]) -> f64 {
+    /// Form factor of the part that is not hidden, unless too much stands in between.
+    fn seen(
+        &self,
+        occluders: &Occluders,
+        (place, normal): (DVec3, DVec3),
+        above: &[DVec3],
+    ) -> Option<f64> {
         let exact = occluders.visible_part(place, above, self.front.normal);
-        exact.map_or_else(
-            || sampled(occluders, (place, normal), above, STRATA),
-            |pieces: Pieces| {
-                pieces.iter().map(|piece| point_to_polygon_above(place, normal, piece)).sum()
-            },
-        )
+        exact.map(|pieces: Pieces| {
+            pieces.iter().map(|piece| point_to_polygon_above(place, normal, piece)).sum()
+        })
     }
 }
 

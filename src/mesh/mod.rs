@@ -3,6 +3,7 @@
 mod build;
 mod ids;
 mod split;
+mod statistics;
 mod validate;
 
 use glam::{DVec2, DVec3};
@@ -14,6 +15,7 @@ use crate::surface::polygon::{self, Convex};
 
 pub use ids::{ElementId, PatchId, VertexId};
 pub use split::{Crossing, Middle, Split};
+pub use statistics::{Divided, SizeBin};
 
 use build::VertexIndex;
 
