@@ -13,11 +13,12 @@
 //! | [`reconstruct()`] → [`TriMesh`] | radiosity at the vertices of a conforming triangulation |
 //! | [`form_factor::assemble`] → [`form_factor::FormFactors`] | beside all that: the matrix itself, of patches by whole faces ([`faces_of`]) or surfaces |
 //! | [`export::save`], [`render::render`] | files for others, pictures |
+//! | [`compare::compare`] → [`compare::Comparison`] | errors and costs of uniform and adaptive meshes, and a verdict |
 //!
 //! The modules, in the order in which data moves; one may use those to its left, never those to its right:
 //!
 //! scene → surface → mesh → visibility → `form_factor` → direct → refine → solver → reconstruct →
-//! tone → export, render
+//! tone → export, render → compare
 //!
 //! # Words and units
 //!
@@ -82,6 +83,8 @@ pub mod tone;
 
 pub mod export;
 pub mod render;
+
+pub mod compare;
 
 pub use error::{Error, Result};
 pub use reconstruct::{TriMesh, reconstruct};

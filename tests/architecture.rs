@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The library's modules in flow order; those in one entry do not use each other.
-const FLOW: [&[&str]; 15] = [
+const FLOW: [&[&str]; 16] = [
     &["colour"],
     &["error"],
     &["file"],
@@ -20,6 +20,7 @@ const FLOW: [&[&str]; 15] = [
     &["reconstruct"],
     &["tone"],
     &["export", "render"],
+    &["compare"],
 ];
 
 /// Longest file, lines.

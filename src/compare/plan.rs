@@ -1,0 +1,116 @@
+//! What to compare.
+
+use std::path::PathBuf;
+
+use super::estimate::Effort;
+use crate::error::Result;
+use crate::mesh::Mesh;
+use crate::settings::Settings;
+use crate::surface::Surfaces;
+
+/// Fewest elements of the coarsest uniform mesh whose size is not given.
+const COARSEST: usize = 300;
+
+/// Elements of the finest uniform mesh whose size is not given, over those of the finest adaptive one.
+const FINEST: usize = 4;
+
+/// Most uniform meshes whose sizes are not given.
+const MOST: usize = 6;
+
+/// Most elements of a uniform mesh whose size is not given.
+const BEARABLE: usize = 1_000_000;
+
+/// Where the truth is from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Source {
+    /// Found by paths.
+    Traced(Effort),
+    /// A file, see [`Reference::load`](super::Reference::load).
+    File(PathBuf),
+}
+
+/// What to compare, and by what.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// All but the tolerance of adaptive and the size of uniform meshes.
+    ///
+    /// Uniform meshes gather reflected light to the finest tolerance.
+    pub settings: Settings,
+    /// Sizes of uniform elements, m; `None` chooses some that fit the adaptive meshes.
+    pub uniform: Option<Vec<f64>>,
+    /// Tolerances of adaptive meshes.
+    pub adaptive: Vec<f64>,
+    /// The truth.
+    pub reference: Source,
+    /// The error at which costs are compared, as a share of the mean; `None`: the smallest that both reach.
+    pub error: Option<f64>,
+    /// Paths from each place of the profile across a shadow edge; 0 for none.
+    pub profile_paths: usize,
+}
+
+impl Default for Plan {
+    fn default() -> Self {
+        Self {
+            settings: Settings::medium(),
+            uniform: None,
+            adaptive: vec![0.2, 0.1, 0.05, 0.02],
+            reference: Source::Traced(Effort::default()),
+            error: None,
+            profile_paths: 4096,
+        }
+    }
+}
+
+impl Plan {
+    /// Settings of an adaptive mesh.
+    pub fn adaptive_settings(&self, tolerance: f64) -> Settings {
+        Settings { tolerance, uniform: None, ..self.settings.clone() }
+    }
+
+    /// Settings of a uniform mesh with elements at most so long, m.
+    pub fn uniform_settings(&self, size: f64) -> Settings {
+        let finest = self.adaptive.iter().copied().min_by(f64::total_cmp);
+        let tolerance = finest.unwrap_or(self.settings.tolerance);
+        Settings { tolerance, uniform: Some(size), ..self.settings.clone() }
+    }
+
+    /// The sizes of uniform meshes, from coarse to fine, beside adaptive ones of at most so many elements.
+    pub fn sizes(&self, surfaces: &Surfaces, adaptive_elements: usize) -> Vec<f64> {
+        if let Some(sizes) = &self.uniform {
+            return sizes.clone();
+        }
+        let count = |size: f64| Mesh::new(surfaces, &self.uniform_settings(size)).leaves().count();
+        let goal = (FINEST * adaptive_elements).clamp(2 * COARSEST, BEARABLE);
+        // Elements are divided in quarters: halving the size is the least that makes a difference.
+        let mut size = surfaces.extent / 4.0;
+        let mut sizes = Vec::new();
+        loop {
+            let elements = count(size);
+            if elements >= COARSEST {
+                sizes.push(size);
+            }
+            // The next would have about four times as many: nearer to the goal, by ratio, if below half of it.
+            if 2 * elements > goal || sizes.len() > 24 {
+                break;
+            }
+            size /= 2.0;
+        }
+        sizes.split_off(sizes.len().saturating_sub(MOST))
+    }
+}
+
+impl Plan {
+    /// Whether all of it can be done.
+    ///
+    /// # Errors
+    /// [`Error::Setting`](crate::Error::Setting) about the first thing that cannot.
+    pub fn validate(&self, surfaces: &Surfaces) -> Result<()> {
+        let adaptive = self.adaptive.iter().map(|&tolerance| self.adaptive_settings(tolerance));
+        let uniform = self.uniform.iter().flatten().map(|&size| self.uniform_settings(size));
+        for settings in adaptive.chain(uniform) {
+            settings.validate()?;
+            settings.validate_for(surfaces.area(), surfaces.extent)?;
+        }
+        Ok(())
+    }
+}
