@@ -62,7 +62,8 @@ pub fn compare(
     let start = Instant::now();
     let surfaces = surfaces_of(scene);
     let seconds = start.elapsed().as_secs_f64();
-    plan.validate(&surfaces)?;
+    plan.validate()?;
+    plan.validate_for(&surfaces)?;
     let mut observer = Observer { observe, flow: ControlFlow::Continue(()) };
     let reference = match &plan.reference {
         Source::File(path) => Reference::load(path, surfaces.extent)?,

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::estimate::Effort;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::settings::Settings;
 use crate::surface::Surfaces;
@@ -100,17 +100,41 @@ impl Plan {
 }
 
 impl Plan {
-    /// Whether all of it can be done.
+    /// Whether every setting is in its range.
     ///
     /// # Errors
-    /// [`Error::Setting`](crate::Error::Setting) about the first thing that cannot.
-    pub fn validate(&self, surfaces: &Surfaces) -> Result<()> {
+    /// [`Error::Setting`] about the first that is not.
+    pub fn validate(&self) -> Result<()> {
+        let setting = |name, message: &str| Error::Setting { name, message: message.to_owned() };
+        if self.adaptive.is_empty() {
+            return Err(setting("adaptive", "there must be one tolerance at least"));
+        }
+        if self.uniform.as_ref().is_some_and(Vec::is_empty) {
+            return Err(setting("uniform", "there must be one size at least"));
+        }
+        if !self.error.is_none_or(|error| error > 0.0 && error.is_finite()) {
+            return Err(setting("error", "the error to compare at must be above zero"));
+        }
+        if let Source::Traced(Effort { noise, paths, area_points, .. }) = self.reference {
+            if !(noise > 0.0 && paths > 0 && area_points > 0) {
+                return Err(setting("noise", "noise, paths and points must be above zero"));
+            }
+        }
+        self.all_settings().try_for_each(|settings| settings.validate())
+    }
+
+    /// Whether all meshes of surfaces will be of a bearable size.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] about the size that is too small.
+    pub fn validate_for(&self, surfaces: &Surfaces) -> Result<()> {
+        let (area, extent) = (surfaces.area(), surfaces.extent);
+        self.all_settings().try_for_each(|settings| settings.validate_for(area, extent))
+    }
+
+    fn all_settings(&self) -> impl Iterator<Item = Settings> + '_ {
         let adaptive = self.adaptive.iter().map(|&tolerance| self.adaptive_settings(tolerance));
         let uniform = self.uniform.iter().flatten().map(|&size| self.uniform_settings(size));
-        for settings in adaptive.chain(uniform) {
-            settings.validate()?;
-            settings.validate_for(surfaces.area(), surfaces.extent)?;
-        }
-        Ok(())
+        adaptive.chain(uniform)
     }
 }
