@@ -14,11 +14,12 @@
 //! | [`form_factor::assemble`] → [`form_factor::FormFactors`] | beside all that: the matrix itself, of patches by whole faces ([`faces_of`]) or surfaces |
 //! | [`export::save`], [`render::render`] | files for others, pictures |
 //! | [`page::viewer()`] and others, [`page::document`] | pages to share, with the mesh to turn in them |
+//! | [`compare::compare`] → [`compare::Comparison`] | errors and costs of uniform and adaptive meshes, and a verdict |
 //!
 //! The modules, in the order in which data moves; one may use those to its left, never those to its right:
 //!
 //! scene → surface → mesh → visibility → `form_factor` → direct → refine → solver → reconstruct →
-//! tone → export, render → page
+//! tone → export, render → page → compare
 //!
 //! # Words and units
 //!
@@ -85,6 +86,8 @@ pub mod export;
 pub mod render;
 
 pub mod page;
+
+pub mod compare;
 
 pub use error::{Error, Result};
 pub use reconstruct::{TriMesh, reconstruct};

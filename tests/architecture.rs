@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The library's modules in flow order; those in one entry do not use each other.
-const FLOW: [&[&str]; 16] = [
+const FLOW: [&[&str]; 17] = [
     &["colour"],
     &["error"],
     &["file"],
@@ -21,6 +21,7 @@ const FLOW: [&[&str]; 16] = [
     &["tone"],
     &["export", "render"],
     &["page"],
+    &["compare"],
 ];
 
 /// Longest file, lines.

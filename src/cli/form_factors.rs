@@ -87,9 +87,9 @@ impl FormFactors {
     pub(crate) fn run(self) -> Result<(), Failure> {
         let (settings, method) = (self.settings()?, self.method()?);
         outputs::check_factors(&self.scene.path, &self.output)?;
-        self.report.use_threads()?;
+        self.report.talk.use_threads()?;
         let interrupt = Interrupt::listen();
-        let mut meter = Meter::new(&self.report);
+        let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
         let scene = load(&self.scene.path, &self.scene.load_options())?;
         scene.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
@@ -114,7 +114,7 @@ impl FormFactors {
         }
         self.output.iter().try_for_each(|path| save_factors(&table, path))?;
         meter.end();
-        match (self.report.json, self.report.quiet) {
+        match (self.report.json, self.report.talk.quiet) {
             (true, _) => console::print_json(&enclosure)?,
             (false, true) => (),
             (false, false) => console::print(&enclosure.to_string())?,

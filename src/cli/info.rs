@@ -29,13 +29,13 @@ impl Info {
     pub(crate) fn run(self) -> Result<(), Failure> {
         let settings = self.accuracy.settings();
         settings.validate()?;
-        self.report.use_threads()?;
+        self.report.talk.use_threads()?;
         let scene = load(&self.scene.path, &self.scene.load_options())?;
         let surfaces = surfaces_of(&scene);
         settings.validate_for(surfaces.area(), surfaces.extent)?;
         let mesh = Mesh::new(&surfaces, &settings);
         let facts = Facts::new(self.scene.path, &scene, &surfaces, &mesh);
-        match (self.report.json, self.report.quiet) {
+        match (self.report.json, self.report.talk.quiet) {
             (true, _) => console::print_json(&facts)?,
             (false, true) => (),
             (false, false) => console::print(&facts.to_string())?,

@@ -8,7 +8,7 @@ use radiosity::solver::{Phase, Progress};
 use serde::Serialize;
 
 use super::console;
-use super::options::ReportOptions;
+use super::options::TalkOptions;
 
 /// Steps of a progress bar.
 const STEPS: f64 = 1000.0;
@@ -16,7 +16,7 @@ const STEPS: f64 = 1000.0;
 /// A finished phase.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Timing {
-    pub(crate) phase: &'static str,
+    pub(crate) phase: String,
     pub(crate) seconds: f64,
 }
 
@@ -33,14 +33,14 @@ pub(crate) struct Meter {
 
 #[derive(Debug)]
 struct Current {
-    phase: &'static str,
+    phase: String,
     start: Instant,
     bar: ProgressBar,
     tenth: u32,
 }
 
 impl Meter {
-    pub(crate) fn new(options: &ReportOptions) -> Self {
+    pub(crate) fn new(options: &TalkOptions) -> Self {
         Self {
             quiet: options.quiet,
             tenths: options.verbose > 1,
@@ -62,10 +62,11 @@ impl Meter {
     }
 
     /// Ends the phase before and begins the next.
-    pub(crate) fn begin(&mut self, phase: &'static str) {
+    pub(crate) fn begin(&mut self, phase: &str) {
         self.end();
         let bar = if self.on_terminal && !self.quiet { bar(phase) } else { ProgressBar::hidden() };
-        self.current = Some(Current { phase, start: Instant::now(), bar, tenth: 0 });
+        self.current =
+            Some(Current { phase: phase.to_owned(), start: Instant::now(), bar, tenth: 0 });
     }
 
     /// Follows the solver.
@@ -74,7 +75,7 @@ impl Meter {
     }
 
     /// Tells how much of a phase is done, 0..=1; a new one ends the one before.
-    pub(crate) fn advance(&mut self, phase: &'static str, done: f64) {
+    pub(crate) fn advance(&mut self, phase: &str, done: f64) {
         if self.current.as_ref().is_none_or(|current| current.phase != phase) {
             self.begin(phase);
         }
@@ -122,11 +123,11 @@ fn name(phase: Phase) -> &'static str {
     }
 }
 
-fn bar(phase: &'static str) -> ProgressBar {
+fn bar(phase: &str) -> ProgressBar {
     let template = "{msg:<16} {wide_bar} {percent:>3} %, {eta} left";
     let style =
         ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-    let bar = ProgressBar::new(STEPS as u64).with_style(style).with_message(phase);
+    let bar = ProgressBar::new(STEPS as u64).with_style(style).with_message(phase.to_owned());
     bar.tick();
     bar
 }

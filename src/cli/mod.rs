@@ -1,5 +1,7 @@
 //! What the command understands, and how it ends: 0 done, 1 failed, 2 wrong usage.
 
+mod compare;
+mod compared;
 mod config;
 mod console;
 mod enclosure;
@@ -37,6 +39,7 @@ const EXAMPLES: &str = "\
 Examples:
   radiosity solve scenes/cornell-box.obj -o cornell.glb --image cornell.png
   radiosity render cornell.glb -o mesh.png --view wireframe
+  radiosity compare scenes/cornell-box.obj --csv runs.csv
   radiosity form-factors scenes/furnace.obj --patch-size 1 -o F.json
   radiosity info scenes/office.obj
 
@@ -46,6 +49,7 @@ Examples:
 enum Command {
     Solve(Box<solve::Solve>),
     Render(render::Render),
+    Compare(Box<compare::Compare>),
     FormFactors(form_factors::FormFactors),
     Info(info::Info),
 }
@@ -74,6 +78,7 @@ impl Command {
         match self {
             Self::Solve(solve) => solve.run(),
             Self::Render(render) => render.run(),
+            Self::Compare(compare) => compare.run(),
             Self::FormFactors(form_factors) => form_factors.run(),
             Self::Info(info) => info.run(),
         }

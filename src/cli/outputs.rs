@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use radiosity::{Error, Result, export, render};
+use radiosity::{Error, Result, compare, export, render};
 
 /// Whether all files could be written, and none of them is the one that is read.
 pub(crate) fn check(
@@ -33,6 +33,32 @@ pub(crate) fn check_factors(input: &Path, outputs: &[PathBuf]) -> Result<()> {
         export::check_writable_factors(path)?;
     }
     Ok(())
+}
+
+/// The same for comparisons: tables of runs, and the reference, none in the place of another.
+pub(crate) fn check_compared(inputs: &[&Path], outputs: &[&Path]) -> Result<()> {
+    for (number, path) in outputs.iter().enumerate() {
+        inputs.iter().try_for_each(|input| refuse_input(input, path))?;
+        if outputs[..number].contains(path) {
+            return Err(Error::format(path, "is to be written twice; give each file its own name"));
+        }
+        compare::check_writable(path)?;
+    }
+    Ok(())
+}
+
+/// Whether files have the one ending that they can have.
+pub(crate) fn check_endings<'a>(
+    paths: impl IntoIterator<Item = &'a PathBuf>,
+    known: &'static str,
+) -> Result<()> {
+    let is_known = |path: &PathBuf| {
+        path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(&known[1..]))
+    };
+    match paths.into_iter().find(|path| !is_known(path)) {
+        Some(path) => Err(Error::UnknownFormat { path: path.clone(), known }),
+        None => Ok(()),
+    }
 }
 
 fn refuse_input(input: &Path, output: &Path) -> Result<()> {

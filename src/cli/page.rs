@@ -137,18 +137,11 @@ fn body(account: &Account<'_>, viewer: &Viewer<'_>, seconds: &[Timing]) -> Marku
 
 fn facts(account: &Account<'_>) -> Vec<(&'static str, String)> {
     let Account { scene, summary, settings, .. } = account;
-    let divided = &summary.divided;
     vec![
         ("Scene", scene.display().to_string()),
         ("Surfaces", format!("{}, {} patches", summary.surfaces, summary.patches)),
         ("Elements", format!("{}, {} of them leaves", summary.elements, summary.leaves)),
-        (
-            "Divided",
-            format!(
-                "gradient {}, shadow edge {}, contact {}, uniform {}",
-                divided.gradient, divided.shadow_edge, divided.contact, divided.uniform
-            ),
-        ),
+        ("Divided", summary.divided.to_string()),
         ("Mesh", format!("{} triangles, {} vertices", summary.triangles, summary.vertices)),
         ("Shots", format!("{}, {}", summary.shots, summary.stop)),
         ("Settings", settings.to_string()),
@@ -177,7 +170,8 @@ fn energy(summary: &Summary) -> Markup {
 }
 
 fn times(seconds: &[Timing]) -> Markup {
-    let row = |timing: &Timing| vec![Cell::text(timing.phase), Cell::number(timing.seconds, 2)];
+    let row =
+        |timing: &Timing| vec![Cell::text(timing.phase.clone()), Cell::number(timing.seconds, 2)];
     page::table(&Table {
         caption: "",
         header: &["Phase", "seconds"],

@@ -46,8 +46,8 @@ impl Render {
         outputs::check(&self.path, &[], &self.output, None)?;
         let views = self.picture.views(&self.output)?;
         self.picture.check_for_file()?;
-        self.report.use_threads()?;
-        let mut meter = Meter::new(&self.report);
+        self.report.talk.use_threads()?;
+        let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
         let (mesh, stamp) = export::load_solved(&self.path)?;
         let choice = self.picture.choose_camera(&cameras(&stamp.settings))?;
@@ -56,7 +56,7 @@ impl Render {
         }
         meter.begin("picture");
         let camera = self.picture.camera(&choice, &mesh);
-        if self.report.verbose > 0 {
+        if self.report.talk.verbose > 0 {
             meter.tell(&format!("camera {}", CameraRecord::from(&camera)));
         }
         let display = display(&mesh, self.picture.exposure.unwrap_or(stamp.exposure));
@@ -77,7 +77,7 @@ impl Render {
             console::print_json(
                 &json!({ "camera": camera, "written": written, "seconds": seconds }),
             )?;
-        } else if !self.report.quiet {
+        } else if !self.report.talk.quiet {
             let names: Vec<String> =
                 self.output.iter().map(|path| path.display().to_string()).collect();
             console::print(&format!("written: {}", names.join(", ")))?;

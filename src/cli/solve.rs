@@ -82,9 +82,9 @@ impl Solve {
         let settings = self.accuracy.settings();
         settings.validate()?;
         self.check()?;
-        self.report.use_threads()?;
+        self.report.talk.use_threads()?;
         let interrupt = Interrupt::listen();
-        let mut meter = Meter::new(&self.report);
+        let mut meter = Meter::new(&self.report.talk);
         if self.written().next().is_none() {
             meter.tell("nothing will be written; -o FILE.glb, --image FILE.png and --html FILE.html do that");
         }
@@ -98,7 +98,7 @@ impl Solve {
         meter.begin("surfaces");
         let surfaces = surfaces_of(&scene);
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
-        if self.report.verbose > 0 {
+        if self.report.talk.verbose > 0 {
             meter.tell(&settings_record.to_string());
         }
         let solution = solve(&surfaces, &settings, |progress| {
@@ -157,7 +157,7 @@ impl Solve {
     }
 
     fn report_on(&self, outcome: &Outcome) -> Result<(), Failure> {
-        match (self.report.json, self.report.quiet) {
+        match (self.report.json, self.report.talk.quiet) {
             (true, _) => console::print_json(outcome)?,
             (false, true) => (),
             (false, false) => console::print(&outcome.to_string())?,
@@ -192,7 +192,7 @@ impl Solve {
         }
         meter.begin("picture");
         let camera = self.picture.camera(camera, subject.mesh);
-        if self.report.verbose > 0 {
+        if self.report.talk.verbose > 0 {
             meter.tell(&format!("camera {}", CameraRecord::from(&camera)));
         }
         let display = display(subject.mesh, exposure);

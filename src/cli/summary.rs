@@ -4,8 +4,8 @@ use std::fmt::{self, Display, Formatter};
 use std::path::PathBuf;
 
 use radiosity::colour::Rgb;
-use radiosity::mesh::Reason;
-use radiosity::reconstruct::TriMesh;
+use radiosity::mesh::Divided;
+use radiosity::reconstruct::{Angles, TriMesh};
 use radiosity::solver::{Energy, Stop};
 use radiosity::{Solution, Surfaces};
 use serde::Serialize;
@@ -27,21 +27,11 @@ pub(crate) struct Summary {
     pub(crate) divided: Divided,
     pub(crate) vertices: usize,
     pub(crate) triangles: usize,
+    pub(crate) angles: Angles,
     pub(crate) shots: usize,
     pub(crate) hemicubes: Hemicubes,
     pub(crate) energy: Balance,
 }
-
-/// Elements divided, by reason.
-#[derive(Debug, Default, Serialize)]
-pub(crate) struct Divided {
-    pub(crate) uniform: usize,
-    pub(crate) gradient: usize,
-    pub(crate) discontinuity: usize,
-    pub(crate) shadow_edge: usize,
-    pub(crate) contact: usize,
-}
-
 /// Hemicubes looked through.
 #[derive(Debug, Serialize)]
 pub(crate) struct Hemicubes {
@@ -90,29 +80,14 @@ impl Summary {
             patches: solution.mesh.patches.len(),
             elements: elements.len(),
             leaves: elements.iter().filter(|element| element.is_leaf()).count(),
-            divided: Divided::new(elements.iter().filter_map(|element| element.reason)),
+            divided: solution.mesh.divided(),
             vertices: mesh.positions.len(),
             triangles: mesh.triangles.len(),
+            angles: mesh.angles(),
             shots: solution.shots,
             hemicubes: Hemicubes { patches, vertices },
             energy: Balance::from(&solution.energy),
         }
-    }
-}
-
-impl Divided {
-    fn new(reasons: impl Iterator<Item = Reason>) -> Self {
-        let mut divided = Self::default();
-        for reason in reasons {
-            *match reason {
-                Reason::Uniform => &mut divided.uniform,
-                Reason::Gradient => &mut divided.gradient,
-                Reason::ShadowEdge => &mut divided.shadow_edge,
-                Reason::Contact => &mut divided.contact,
-                Reason::Discontinuity => &mut divided.discontinuity,
-            } += 1;
-        }
-        divided
     }
 }
 
@@ -132,23 +107,17 @@ impl From<&Energy> for Balance {
 
 impl Display for Outcome {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Summary { divided, hemicubes, .. } = &self.summary;
+        let Summary { hemicubes, .. } = &self.summary;
         let s = &self.summary;
         let total: f64 = self.seconds.iter().map(|timing| timing.seconds).sum();
         let state = if s.finished { "" } else { ", unfinished" };
         writeln!(f, "{}: {}{state}, {total:.1} s", self.scene.display(), s.stop)?;
         writeln!(f, "surfaces   {}, {} patches", s.surfaces, s.patches)?;
         writeln!(f, "elements   {}, {} leaves", s.elements, s.leaves)?;
-        writeln!(
-            f,
-            "divided    gradient {}, shadow edge {}, discontinuity line {}, contact {}, uniform {}",
-            divided.gradient,
-            divided.shadow_edge,
-            divided.discontinuity,
-            divided.contact,
-            divided.uniform
-        )?;
+        writeln!(f, "divided    {}", s.divided)?;
         writeln!(f, "mesh       {} triangles, {} vertices", s.triangles, s.vertices)?;
+        let Angles { smallest, below_ten, .. } = s.angles;
+        writeln!(f, "smallest angle {smallest:.1}°, {:.1} % below 10°", 100.0 * below_ten)?;
         writeln!(f, "shots      {}", s.shots)?;
         writeln!(f, "hemicubes  patches {}, vertices {}", hemicubes.patches, hemicubes.vertices)?;
         write!(f, "{}", s.energy)?;

@@ -5,6 +5,7 @@
 mod lines;
 mod outlook;
 mod punctual;
+mod tally;
 
 use std::borrow::Cow;
 
@@ -21,6 +22,7 @@ use crate::visibility::{Facet, HalfSpace, Occluders, Pieces, Polygon};
 pub use lines::Line;
 pub use outlook::PatchLight;
 use punctual::Source;
+use tally::Tally;
 
 /// All emitters of a scene.
 #[derive(Clone, Debug)]
@@ -29,6 +31,7 @@ pub struct Lamps {
     points: Vec<Light>,
     /// Rows of cells to each triangle of a light that is always sampled.
     rows: Option<u32>,
+    tally: Tally,
 }
 
 /// A convex polygon that emits from its front.
@@ -65,7 +68,7 @@ impl Lamps {
             }
         }
         areas.retain(|lamp| lamp.exitance.max_element() > 0.0);
-        Self { areas, points: surfaces.lights.clone(), rows: None }
+        Self { areas, points: surfaces.lights.clone(), rows: None, tally: Tally::default() }
     }
 
     /// With [`Settings::shadow_rays`](crate::settings::Settings::shadow_rays): what hides a polygon is found by about
@@ -81,18 +84,43 @@ impl Lamps {
         self.areas.is_empty() && self.points.is_empty()
     }
 
+    /// How often light has been evaluated so far: pairs of a place and a lamp, or convex piece of one, that
+    /// shines there unless something hides it.
+    pub fn evaluations(&self) -> u64 {
+        self.tally.evaluations()
+    }
+
+    /// Shadow rays so far: to lights that are points, and to others where exact cutting has given up.
+    pub fn rays(&self) -> u64 {
+        self.tally.rays()
+    }
+
     /// What arrives at a place with unit `normal`.
     pub fn shine(&self, occluders: &Occluders, place: DVec3, normal: DVec3) -> Direct {
         let shine = |lamp: &AreaLamp| lamp.shine((occluders, None), (place, normal), self.rows);
-        let areas: Direct = self.areas.iter().map(shine).sum();
-        areas + self.points_shine(occluders, place, normal)
+        self.sum(self.areas.iter().filter_map(shine)) + self.points_shine(occluders, place, normal)
+    }
+
+    /// All that arrives, counted.
+    fn sum(&self, arriving: impl Iterator<Item = Arriving>) -> Direct {
+        let (mut light, mut evaluations, mut rays) = (Direct::default(), 0, 0);
+        for one in arriving {
+            light = light + one.light;
+            evaluations += 1;
+            rays += one.rays;
+        }
+        self.tally.add(evaluations, rays);
+        light
     }
 
     fn points_shine(&self, occluders: &Occluders, place: DVec3, normal: DVec3) -> Direct {
         let mut light = Direct::default();
+        let (mut evaluations, mut rays) = (0, 0);
         for point in &self.points {
             if let Some((irradiance, source)) = punctual::irradiance(point, place, normal) {
                 light.unoccluded += irradiance;
+                evaluations += 1;
+                rays += 1;
                 let far_end = match source {
                     Source::Position(position) => position,
                     Source::Direction(direction) => place + direction * occluders.extent(),
@@ -102,28 +130,45 @@ impl Lamps {
                 }
             }
         }
+        self.tally.add(evaluations, rays);
         light
     }
+}
+
+/// Light from one lamp, and the rays that it took to find it.
+struct Arriving {
+    light: Direct,
+    rays: u64,
 }
 
 /// Occluders, and the numbers of those that may be in the way, where these are known.
 type Screen<'a> = (&'a Occluders, Option<&'a [u32]>);
 
 impl AreaLamp {
-    /// What arrives at a place with a unit normal; by so many `rows` of rays, if any.
-    fn shine(&self, screen: Screen<'_>, receiver: (DVec3, DVec3), rows: Option<u32>) -> Direct {
+    /// What arrives at a place with a unit normal, if anything may; by so many `rows` of rays, if any.
+    fn shine(
+        &self,
+        screen: Screen<'_>,
+        receiver: (DVec3, DVec3),
+        rows: Option<u32>,
+    ) -> Option<Arriving> {
         let (place, normal) = receiver;
         let above = self.reach(place, normal);
         if above.is_empty() {
-            return Direct::default();
+            return None;
         }
         let all = point_to_polygon_above(place, normal, &above);
-        let seen = match (screen, rows) {
-            ((_, Some([])), _) => all,
-            ((occluders, _), Some(rows)) => sampled(occluders, receiver, &above, rows),
-            _ => self.seen(screen, receiver, &above),
+        let exact = match (screen, rows) {
+            ((_, Some([])), _) => Some(all),
+            (_, Some(_)) => None,
+            (_, None) => self.seen(screen, receiver, &above),
         };
-        Direct { irradiance: self.exitance * seen.min(all), unoccluded: self.exitance * all }
+        let rows = rows.unwrap_or(STRATA);
+        let rays = u64::from(rows * rows) * (above.len() as u64 - 2);
+        let (seen, rays) = exact
+            .map_or_else(|| (sampled(screen.0, receiver, &above, rows), rays), |exact| (exact, 0));
+        let (irradiance, unoccluded) = (self.exitance * seen.min(all), self.exitance * all);
+        Some(Arriving { light: Direct { irradiance, unoccluded }, rays })
     }
 
     /// The part above the horizon of a place in front of the lamp.
@@ -148,20 +193,22 @@ impl AreaLamp {
         Cow::Owned(horizon.clip(&self.corners).into_vec())
     }
 
-    /// Form factor of the part that is not hidden.
-    fn seen(&self, screen: Screen<'_>, (place, normal): (DVec3, DVec3), above: &[DVec3]) -> f64 {
+    /// Form factor of the part that is not hidden, unless too much stands in between.
+    fn seen(
+        &self,
+        screen: Screen<'_>,
+        (place, normal): (DVec3, DVec3),
+        above: &[DVec3],
+    ) -> Option<f64> {
         let exact = match screen {
             (occluders, Some(among)) => {
                 occluders.visible_behind(among, place, above, self.front.normal)
             }
             (occluders, None) => occluders.visible_part(place, above, self.front.normal),
         };
-        exact.map_or_else(
-            || sampled(screen.0, (place, normal), above, STRATA),
-            |pieces: Pieces| {
-                pieces.iter().map(|piece| point_to_polygon_above(place, normal, piece)).sum()
-            },
-        )
+        exact.map(|pieces: Pieces| {
+            pieces.iter().map(|piece| point_to_polygon_above(place, normal, piece)).sum()
+        })
     }
 }
 

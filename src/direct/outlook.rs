@@ -46,6 +46,11 @@ impl PatchLight {
         Self { lamps, occluders, outlooks }
     }
 
+    /// Where it comes from.
+    pub fn lamps(&self) -> &Lamps {
+        &self.lamps
+    }
+
     /// What stands in its way.
     pub fn occluders(&self) -> &Occluders {
         &self.occluders
@@ -69,7 +74,8 @@ impl PatchLight {
             let lamp = &self.lamps.areas[prospect.lamp as usize];
             lamp.shine((&self.occluders, among), (place, *normal), self.lamps.rows)
         };
-        prospects.iter().filter(|prospect| chosen(prospect.lamp)).map(shine).sum()
+        let chosen = prospects.iter().filter(|prospect| chosen(prospect.lamp));
+        self.lamps.sum(chosen.filter_map(shine))
     }
 
     fn points_at(&self, patch: PatchId, place: DVec3) -> Direct {

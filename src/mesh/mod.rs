@@ -3,9 +3,9 @@
 mod build;
 mod ids;
 mod split;
+mod statistics;
 mod validate;
 
-use std::iter::Sum;
 use std::ops::Add;
 
 use glam::{DVec2, DVec3};
@@ -17,6 +17,7 @@ use crate::surface::polygon::{self, Convex};
 
 pub use ids::{ElementId, PatchId, VertexId};
 pub use split::{Crossing, Middle, Split};
+pub use statistics::{Divided, SizeBin};
 
 use build::VertexIndex;
 
@@ -135,12 +136,6 @@ impl Add for Direct {
             irradiance: self.irradiance + other.irradiance,
             unoccluded: self.unoccluded + other.unoccluded,
         }
-    }
-}
-
-impl Sum for Direct {
-    fn sum<I: Iterator<Item = Self>>(lights: I) -> Self {
-        lights.fold(Self::default(), Self::add)
     }
 }
 

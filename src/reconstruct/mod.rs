@@ -4,6 +4,7 @@
 //! neighbours agree on their border, within a surface and where surfaces meet. Light is shared by
 //! leaves that share a vertex of the mesh, which those on two sides of a contact line do not.
 
+mod angles;
 mod fit;
 mod normal;
 mod sheet;
@@ -18,6 +19,7 @@ use crate::mesh::{ElementId, Mesh, VertexId};
 use crate::solver::Solution;
 use crate::surface::{Surfaces, Weld};
 
+pub use angles::Angles;
 pub use trimesh::{Irradiance, Part, TriMesh};
 
 use sheet::Sheet;
@@ -61,7 +63,11 @@ fn leaves_by_surface(surfaces: &Surfaces, mesh: &Mesh) -> Vec<Vec<ElementId>> {
 
 /// Joins the sheets, material by material.
 fn assemble(surfaces: &Surfaces, places: &Places, sheets: &[Sheet]) -> TriMesh {
-    let mut mesh = TriMesh { textures: surfaces.textures.clone(), ..TriMesh::default() };
+    let mut hanging: Vec<u32> = sheets.iter().flat_map(|sheet| &sheet.hanging).copied().collect();
+    hanging.sort_unstable();
+    hanging.dedup();
+    let (hanging, textures) = (hanging.len(), surfaces.textures.clone());
+    let mut mesh = TriMesh { hanging, textures, ..TriMesh::default() };
     for (number, material) in surfaces.materials.iter().enumerate() {
         let first = mesh.triangles.len();
         for (surface, sheet) in surfaces.list.iter().zip(sheets) {

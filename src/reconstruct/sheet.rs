@@ -21,6 +21,8 @@ pub(super) struct Sheet {
     pub(super) triangles: Vec<[u32; 3]>,
     /// The leaf that each triangle is part of.
     pub(super) leaves: Vec<ElementId>,
+    /// Places inside edges of leaves; some more than once.
+    pub(super) hanging: Vec<u32>,
     /// True if the surface stands for a part of a curved one.
     pub(super) curved: bool,
     /// Index into [`Surfaces::materials`].
@@ -63,6 +65,7 @@ struct Builder<'a> {
     numbers: HashMap<Source, u32>,
     corners: Vec<Corner>,
     looks: Vec<Look>,
+    hanging: Vec<u32>,
 }
 
 impl Sheet {
@@ -81,6 +84,7 @@ impl Sheet {
             numbers: HashMap::new(),
             corners: Vec::new(),
             looks: Vec::new(),
+            hanging: Vec::new(),
         };
         let mut loops = Vec::new();
         let mut numbered = Vec::new();
@@ -102,6 +106,7 @@ impl Sheet {
         Self {
             triangles,
             leaves: tiles.iter().map(|tile| leaves[tile.leaf]).collect(),
+            hanging: std::mem::take(&mut builder.hanging),
             corners: builder.finish(),
             curved: !surface.normals.is_empty(),
             material: surface.material,
@@ -123,6 +128,7 @@ impl Builder<'_> {
             for hanging in self.places.between(place, outline[next]) {
                 let (source, light) = self.hanging(leaf, ends, (place, outline[next]), hanging);
                 places.push(hanging);
+                self.hanging.push(hanging);
                 corners.push(self.corner(source, hanging, light, look));
             }
         }

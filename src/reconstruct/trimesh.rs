@@ -32,6 +32,9 @@ pub struct TriMesh {
     pub irradiance: Vec<Irradiance>,
     /// The leaf of the solution's mesh that each triangle is part of; empty in a mesh read from a file.
     pub leaves: Vec<ElementId>,
+    /// Places of vertices that lie inside an edge of another leaf, of the same surface or of one that meets
+    /// it there; all have become corners of triangles. Zero in a mesh read from a file.
+    pub hanging: usize,
 }
 
 /// Light that arrives at a vertex, W/m²: B = E + ρ (direct + indirect).

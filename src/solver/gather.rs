@@ -33,6 +33,14 @@ const STALE: f64 = 8.0;
 /// The patches that fill much of a vertex's view, and their form factors.
 type View = SmallVec<[(PatchId, f64); 8]>;
 
+/// What one gathering found.
+struct Gathered {
+    /// W/m².
+    irradiance: Rgb,
+    view: View,
+    factors: u64,
+}
+
 /// Gathers indirect light at points.
 pub(super) struct Gatherer<'a> {
     world: World<'a>,
@@ -44,12 +52,14 @@ pub(super) struct Gatherer<'a> {
     views: Vec<Option<View>>,
     /// How often light was gathered.
     pub(super) gathered: usize,
+    /// Factors from a point to a polygon that it took.
+    pub(super) factors: u64,
 }
 
 impl<'a> Gatherer<'a> {
     pub(super) fn new(world: World<'a>, sources: Sources, fine: f64) -> Self {
         let delta = DeltaFactors::new(RESOLUTION);
-        Self { world, sources, delta, fine, views: Vec::new(), gathered: 0 }
+        Self { world, sources, delta, fine, views: Vec::new(), gathered: 0, factors: 0 }
     }
 
     /// Evaluates indirect light at those of the vertices that lack it.
@@ -59,7 +69,7 @@ impl<'a> Gatherer<'a> {
         dark.sort_unstable();
         dark.dedup();
         let targets = Targets::new(&mesh.patches);
-        let lit: Vec<(Rgb, View)> = dark
+        let lit: Vec<Gathered> = dark
             .par_iter()
             .map_init(
                 || Hemicube::new(&self.delta, &targets, self.world.occluders),
@@ -68,7 +78,8 @@ impl<'a> Gatherer<'a> {
             .collect();
         self.gathered += lit.len();
         self.views.resize(mesh.vertices.len(), None);
-        for (&vertex, (irradiance, view)) in dark.iter().zip(lit) {
+        for (&vertex, Gathered { irradiance, view, factors }) in dark.iter().zip(lit) {
+            self.factors += factors;
             mesh.vertices[vertex.index()].indirect = Some(irradiance);
             self.views[vertex.index()] = Some(view);
         }
@@ -91,33 +102,35 @@ impl<'a> Gatherer<'a> {
         }
     }
 
-    /// Irradiance of a vertex by all reflected light, W/m², and what it saw.
-    fn gather(&self, mesh: &Mesh, hemicube: &mut Hemicube<'_>, vertex: VertexId) -> (Rgb, View) {
+    /// Irradiance of a vertex by all reflected light, and what it saw.
+    fn gather(&self, mesh: &Mesh, hemicube: &mut Hemicube<'_>, vertex: VertexId) -> Gathered {
         let site = mesh[vertex].site;
         let normal = self.world.surfaces.list[mesh[vertex].surface as usize].plane.normal;
         let hemicube = hemicube.look((site, normal), turn(vertex.index() as f64));
-        let mut irradiance = Rgb::ZERO;
+        let (mut irradiance, mut factors) = (Rgb::ZERO, 0);
         let mut view = View::new();
         for sight in hemicube.sights().filter(|sight| sight.front) {
-            irradiance += self.receive(mesh, hemicube, (site, normal), sight);
+            let (light, count) = self.receive(mesh, hemicube, (site, normal), sight);
+            irradiance += light;
+            factors += count;
             if sight.delta > WIDE {
                 view.push((sight.patch, sight.delta));
             }
         }
-        (irradiance, view)
+        Gathered { irradiance, view, factors }
     }
 
-    /// Irradiance by one patch, from elements small enough.
+    /// Irradiance by one patch, from elements small enough, and how many factors that took.
     fn receive(
         &self,
         mesh: &Mesh,
         hemicube: &Hemicube<'_>,
         (site, normal): (DVec3, DVec3),
         sight: Sight,
-    ) -> Rgb {
+    ) -> (Rgb, u64) {
         let surfaces = self.world.surfaces;
         let plane = &surfaces.list[mesh[sight.patch].surface as usize].plane;
-        let mut irradiance = Rgb::ZERO;
+        let (mut irradiance, mut factors) = (Rgb::ZERO, 0);
         let mut open: SmallVec<[ElementId; 32]> = SmallVec::new();
         let root = mesh[sight.patch].root;
         open.push(root);
@@ -126,6 +139,7 @@ impl<'a> Gatherer<'a> {
             let corners: SmallVec<[DVec3; 8]> =
                 element.corners.iter().map(|&v| plane.lift(mesh[v].position)).collect();
             let factor = point_to_polygon(site, normal, &corners);
+            factors += 1;
             let varies = factor * self.sources.spread(source) > self.fine;
             let parts = self.sources.parts(mesh, source);
             if varies && !parts.is_empty() {
@@ -137,27 +151,34 @@ impl<'a> Gatherer<'a> {
                 visible if source == root => visible,
                 _ => hemicube.visible_share(sight.patch, &corners),
             };
-            irradiance += visible
-                * if varies {
-                    let piece = self.sources.piece(mesh, surfaces, source);
-                    self.piece_light((site, normal), (&piece, factor), DEEPEST)
-                } else {
-                    self.sources.mean(source) * factor
-                };
+            if varies {
+                let piece = self.sources.piece(mesh, surfaces, source);
+                let (light, count) = self.piece_light((site, normal), (&piece, factor), DEEPEST);
+                irradiance += visible * light;
+                factors += count;
+            } else {
+                irradiance += visible * (self.sources.mean(source) * factor);
+            }
         }
-        irradiance
+        (irradiance, factors)
     }
 
-    /// Irradiance by a piece of a leaf with this form factor, divided while its variation matters.
-    fn piece_light(&self, eye: (DVec3, DVec3), (piece, factor): (&Piece, f64), depth: u32) -> Rgb {
+    /// Irradiance by a piece of a leaf with this form factor, divided while its variation matters, and
+    /// how many factors that took.
+    fn piece_light(
+        &self,
+        eye: (DVec3, DVec3),
+        (piece, factor): (&Piece, f64),
+        depth: u32,
+    ) -> (Rgb, u64) {
         if depth == 0 || factor * piece.spread() <= self.fine {
-            return piece.mean() * factor;
+            return (piece.mean() * factor, 0);
         }
         let parts = piece.parts();
         let lit = parts.iter().map(|part| {
             let factor = point_to_polygon(eye.0, eye.1, &part.corners);
             self.piece_light(eye, (part, factor), depth - 1)
         });
-        lit.sum()
+        lit.fold((Rgb::ZERO, 0), |(sum, count), (light, more)| (sum + light, count + more + 1))
     }
 }

@@ -13,6 +13,7 @@ mod progressive;
 pub mod relaxation;
 mod sources;
 mod transport;
+mod work;
 
 use std::ops::ControlFlow;
 
@@ -27,6 +28,7 @@ use crate::visibility::Occluders;
 
 pub use element_light::ElementLight;
 pub use energy::Energy;
+pub use work::Work;
 
 use direct_pass::World;
 use gather::Gatherer;
@@ -49,6 +51,8 @@ pub struct Solution {
     pub shots: usize,
     /// Hemicubes looked through: over patches, and over vertices.
     pub hemicubes: [usize; 2],
+    /// What was evaluated.
+    pub work: Work,
     /// Irradiance added for the light still unshot, W/m²; zero when converged.
     pub ambient: Rgb,
     /// How the exchange of reflected light converged, patch by patch.
@@ -144,15 +148,16 @@ pub fn solve(
     direct_pass::refine(world, settings, &mut mesh, &mut observer);
     direct_pass::light_leaves(world, &mut mesh);
     let mut exchange = Exchange::new(world, settings, &mesh, &mut observer)?;
-    let gathered = if exchange.stop == Stop::Converged {
+    let (gathered, gathering) = if exchange.stop == Stop::Converged {
         gather(world, settings, (&mut mesh, &mut exchange), &mut observer)
     } else {
         exchange.spread(&mut mesh);
-        0
+        (0, 0)
     };
-    let Exchange { light, energy, stop, shots, hemicubes, ambient, history } = exchange;
+    let Exchange { light, energy, stop, shots, hemicubes, factors, ambient, history } = exchange;
     let hemicubes = [hemicubes, gathered];
-    Ok(Solution { mesh, light, energy, stop, shots, hemicubes, ambient, history })
+    let work = Work { gathering, ..Work::new(world.light.lamps(), factors) };
+    Ok(Solution { mesh, light, energy, stop, shots, hemicubes, work, ambient, history })
 }
 
 /// Whether light dies away: loading a file sees to it, a scene made in code may not.
@@ -164,13 +169,14 @@ fn check_reflectances(surfaces: &Surfaces, mesh: &Mesh) -> Result<()> {
     })
 }
 
-/// Indirect light at vertices, the mesh refined to it. Returns how often light was gathered.
+/// Indirect light at vertices, the mesh refined to it. Returns how often light was gathered, and how many
+/// factors that took.
 fn gather(
     world: World<'_>,
     settings: &Settings,
     (mesh, exchange): (&mut Mesh, &mut Exchange),
     observer: &mut Observer<'_>,
-) -> usize {
+) -> (usize, u64) {
     let fine = GATHER_SHARE * settings.tolerance * mean_radiosity(mesh);
     let oracle = Oracle::of_reflected_light(settings, world.surfaces.extent, mesh);
     let mut gatherer = Gatherer::new(world, exchange.sources(mesh), fine);
@@ -186,7 +192,7 @@ fn gather(
         exchange.stop = Stop::Cancelled;
     }
     indirect_pass::interpolate(mesh);
-    gatherer.gathered
+    (gatherer.gathered, gatherer.factors)
 }
 
 /// Reflected light, exchanged between the patches of a mesh as it is.
@@ -196,6 +202,7 @@ struct Exchange {
     stop: Stop,
     shots: usize,
     hemicubes: usize,
+    factors: u64,
     ambient: Rgb,
     history: Vec<Step>,
 }
@@ -217,8 +224,8 @@ impl Exchange {
         } else {
             shooting.ambient()
         };
-        let Shooting { energy, shots, hemicubes, .. } = shooting;
-        Ok(Self { light, energy, stop, shots, hemicubes, ambient, history })
+        let Shooting { energy, shots, hemicubes, factors, .. } = shooting;
+        Ok(Self { light, energy, stop, shots, hemicubes, factors, ambient, history })
     }
 
     /// What a gathering vertex sees.

@@ -55,6 +55,8 @@ pub(super) struct Shooting<'a> {
     pub(super) shots: usize,
     /// Hemicubes looked through.
     pub(super) hemicubes: usize,
+    /// Factors from a point to a polygon.
+    pub(super) factors: u64,
 }
 
 impl<'a> Shooting<'a> {
@@ -82,6 +84,7 @@ impl<'a> Shooting<'a> {
             energy: Energy::default(),
             shots: 0,
             hemicubes: 0,
+            factors: 0,
         };
         let mut arrived = Rgb::ZERO;
         for patch in &mesh.patches {
@@ -201,6 +204,7 @@ impl<'a> Shooting<'a> {
         self.hemicubes += rows.len();
         for (patch, row) in missing.into_iter().zip(rows) {
             self.kept += row.links.len();
+            self.factors += row.factors;
             self.rows[patch.index()] = Some(row);
         }
     }

@@ -35,6 +35,8 @@ pub(super) struct Row {
     pub(super) escaped: f64,
     /// Share of the light that meets the black backs of surfaces.
     pub(super) on_backs: f64,
+    /// Factors from a point to a polygon that it took.
+    pub(super) factors: u64,
 }
 
 /// An exchange of light between two elements.
@@ -73,7 +75,7 @@ pub(super) fn row(
         row.escaped += hemicube.escaping() * share;
         for sight in hemicube.sights() {
             if sight.front {
-                Linking { mesh, surfaces, hemicube, sight }.link(source, &mut row.links);
+                Linking { mesh, surfaces, hemicube, sight }.link(source, &mut row);
             } else {
                 row.on_backs += sight.delta * share;
             }
@@ -101,7 +103,7 @@ struct Place {
 
 impl Linking<'_, '_> {
     /// Links the elements of the patch in sight with those under `source`, fine enough for their distance.
-    fn link(&self, source: ElementId, links: &mut Vec<Link>) {
+    fn link(&self, source: ElementId, row: &mut Row) {
         let mut open: SmallVec<[(ElementId, ElementId); 32]> = SmallVec::new();
         open.push((source, self.mesh[self.sight.patch].root));
         while let Some((source, receiver)) = open.pop() {
@@ -113,16 +115,16 @@ impl Linking<'_, '_> {
             } else if near && !sources.is_empty() {
                 open.extend(sources.iter().map(|&part| (part, receiver)));
             } else {
-                let exchange = self.exchange(&from, &to, near);
+                let exchange = self.exchange(&from, &to, (near, &mut row.factors));
                 if exchange > 0.0 {
-                    links.push(Link { source, receiver, exchange });
+                    row.links.push(Link { source, receiver, exchange });
                 }
             }
         }
     }
 
     /// Visible form factor times area, m²: by reciprocity the same from source to receiver and back.
-    fn exchange(&self, source: &Place, receiver: &Place, near: bool) -> f64 {
+    fn exchange(&self, source: &Place, receiver: &Place, (near, factors): (bool, &mut u64)) -> f64 {
         let (small, large) =
             if source.size < receiver.size { (source, receiver) } else { (receiver, source) };
         let see = |point: &DVec3| {
@@ -130,6 +132,7 @@ impl Linking<'_, '_> {
             if in_front { point_to_polygon(*point, small.normal, &large.corners) } else { 0.0 }
         };
         let points = if near { parts(small) } else { SmallVec::from_elem(small.centre, 1) };
+        *factors += points.len() as u64;
         let factor = points.iter().map(see).sum::<f64>() / points.len() as f64;
         if factor == 0.0 {
             return 0.0;

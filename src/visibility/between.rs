@@ -141,7 +141,7 @@ fn inside(occluder: &Occluder, hull: &[HalfSpace], tolerance: f64) -> Option<Occ
     let previous = |k: usize| corners[(k + corners.len() - 1) % corners.len()];
     let distinct = |&k: &usize| corners[k].distance(previous(k)) > ROUNDING * tolerance;
     let corners: Polygon = (0..corners.len()).filter(distinct).map(|k| corners[k]).collect();
-    (corners.len() >= 3).then_some(Occluder { corners, plane: occluder.plane })
+    (corners.len() >= 3).then_some(Occluder { corners, ..*occluder })
 }
 
 /// The half spaces whose intersection is the convex hull of two polygons.

@@ -2,6 +2,7 @@
 
 mod between;
 mod clip;
+mod first;
 pub mod hierarchy;
 pub mod packet;
 mod patches;
@@ -19,6 +20,7 @@ use crate::surface::cut::{Cuts, convex_pieces};
 
 pub use between::Between;
 pub use clip::{Facet, HalfSpace, Polygon};
+pub use first::Met;
 use hierarchy::hierarchy;
 pub use patches::PatchHierarchy;
 pub use shaft::Pieces;
@@ -40,6 +42,8 @@ pub struct Occluders {
 struct Occluder {
     corners: Polygon,
     plane: HalfSpace,
+    /// Index into [`Surfaces::list`], or into the polygons given.
+    surface: u32,
 }
 
 impl std::fmt::Debug for Occluders {
@@ -59,15 +63,15 @@ impl Occluders {
     /// Polygons without area are left out.
     pub fn from_polygons(polygons: &[&[DVec3]], tolerance: f64) -> Self {
         let normal = |p: &[DVec3]| (p[1] - p[0]).cross(p[2] - p[0]).try_normalize();
-        let occluder = |p: &&[DVec3]| {
+        let occluder = |(number, p): (usize, &&[DVec3])| {
             let plane = HalfSpace::new(p[0], normal(p)?);
-            Some(Occluder { corners: (*p).into(), plane })
+            Some(Occluder { corners: (*p).into(), plane, surface: number as u32 })
         };
         let corners = || polygons.iter().flat_map(|p| p.iter().copied());
         let low = corners().fold(DVec3::INFINITY, DVec3::min);
         let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
         let extent = if low.is_finite() { low.distance(high) } else { 0.0 };
-        Self::of(polygons.iter().filter_map(occluder).collect(), extent, tolerance)
+        Self::of(polygons.iter().enumerate().filter_map(occluder).collect(), extent, tolerance)
     }
 
     fn of(polygons: Vec<Occluder>, extent: f64, tolerance: f64) -> Self {
@@ -150,7 +154,11 @@ impl Occluder {
         if from.abs() <= tolerance || to.abs() <= tolerance || from * to > 0.0 {
             return false;
         }
-        let at = a.lerp(b, from / (from - to));
+        self.holds(a.lerp(b, from / (from - to)), tolerance)
+    }
+
+    /// True if a place on its plane is inside the polygon or on its border.
+    fn holds(&self, at: DVec3, tolerance: f64) -> bool {
         (0..self.corners.len()).all(|k| {
             let (p, q) = (self.corners[k], self.corners[(k + 1) % self.corners.len()]);
             (q - p).cross(at - p).dot(self.plane.normal) >= -tolerance * (q - p).length()
@@ -160,12 +168,13 @@ impl Occluder {
 
 /// Convex pieces of all surfaces, each double-sided polygon once.
 fn polygons(surfaces: &Surfaces) -> impl Iterator<Item = Occluder> + '_ {
-    let fronts = surfaces.list.iter().filter(|surface| !surface.is_back);
-    fronts.flat_map(|surface| {
+    let fronts = surfaces.list.iter().enumerate().filter(|(_, surface)| !surface.is_back);
+    fronts.flat_map(|(number, surface)| {
         let cuts = Cuts { segments: &[], size: f64::INFINITY, tolerance: surfaces.tolerance };
-        convex_pieces(&surface.rings, &cuts).into_iter().map(|piece| Occluder {
+        convex_pieces(&surface.rings, &cuts).into_iter().map(move |piece| Occluder {
             corners: piece.iter().map(|&p| surface.plane.lift(p)).collect(),
             plane: HalfSpace::new(surface.plane.origin, surface.plane.normal),
+            surface: number as u32,
         })
     })
 }

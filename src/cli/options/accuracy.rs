@@ -10,18 +10,36 @@ use super::values;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Accuracy")]
 pub(crate) struct AccuracyOptions {
+    /// Error allowed across an element, as a share of the radiosity around it: 0.02 or 2%
+    ///
+    /// Smaller gives more elements, and more time (0.001 to 1).
+    #[arg(long, value_name = "SHARE", value_parser = values::share)]
+    tolerance: Option<f64>,
+
+    /// No adaptive refinement: every element at most this long, in metres
+    ///
+    /// For comparison with the adaptive mesh; the number of elements grows with its inverse square.
+    #[arg(long, value_name = "METRES", value_parser = values::number)]
+    uniform: Option<f64>,
+
+    /// Stop after this many shots, and estimate the rest as ambient light
+    #[arg(long, value_name = "N")]
+    max_shots: Option<usize>,
+
+    #[command(flatten)]
+    method: MethodOptions,
+}
+
+/// The knobs that solutions which are compared have in common.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Accuracy")]
+pub(crate) struct MethodOptions {
     /// Sets tolerance, smallest element and deepest level together
     ///
     /// draft: 8 %, 1/300 of the scene, level 5. medium: 2 %, 1/800, level 7. high: 1 %, 1/2000, level 9.
     /// Each may be overridden on its own.
     #[arg(long, value_enum, default_value_t = Quality::Medium)]
     quality: Quality,
-
-    /// Error allowed across an element, as a share of the radiosity around it: 0.02 or 2%
-    ///
-    /// Smaller gives more elements, and more time (0.001 to 1).
-    #[arg(long, value_name = "SHARE", value_parser = values::share)]
-    tolerance: Option<f64>,
 
     /// Shortest side of an element, in metres; shadows finer than this blur
     #[arg(long, value_name = "METRES", value_parser = values::number)]
@@ -30,12 +48,6 @@ pub(crate) struct AccuracyOptions {
     /// How often a patch may be divided in a row (0 to 16)
     #[arg(long, value_name = "N")]
     max_level: Option<u32>,
-
-    /// No adaptive refinement: every element at most this long, in metres
-    ///
-    /// For comparison with the adaptive mesh; the number of elements grows with its inverse square.
-    #[arg(long, value_name = "METRES", value_parser = values::number)]
-    uniform: Option<f64>,
 
     /// Divide elements in halves and quarters only, not along the borders of penumbrae
     ///
@@ -58,10 +70,6 @@ pub(crate) struct AccuracyOptions {
     /// Stop when this share of the emitted power is left unshot: 0.001 or 0.1% (the default)
     #[arg(long, value_name = "SHARE", value_parser = values::share)]
     stop: Option<f64>,
-
-    /// Stop after this many shots, and estimate the rest as ambient light
-    #[arg(long, value_name = "N")]
-    max_shots: Option<usize>,
 
     /// Which patch sends its reflected light on next
     ///
@@ -117,6 +125,18 @@ impl From<Solver> for Method {
 
 impl AccuracyOptions {
     pub(crate) fn settings(&self) -> Settings {
+        let method = self.method.settings();
+        Settings {
+            tolerance: self.tolerance.unwrap_or(method.tolerance),
+            uniform: self.uniform,
+            max_shots: self.max_shots,
+            ..method
+        }
+    }
+}
+
+impl MethodOptions {
+    pub(crate) fn settings(&self) -> Settings {
         let preset = match self.quality {
             Quality::Draft => Settings::draft(),
             Quality::Medium => Settings::medium(),
@@ -124,18 +144,16 @@ impl AccuracyOptions {
         };
         let or_preset = |metres: Option<f64>, preset| metres.map_or(preset, Length::Metres);
         Settings {
-            tolerance: self.tolerance.unwrap_or(preset.tolerance),
             min_element: or_preset(self.min_element, preset.min_element),
             max_level: self.max_level.unwrap_or(preset.max_level),
             patch_size: or_preset(self.patch_size, preset.patch_size),
-            uniform: self.uniform,
             discontinuity_lines: !self.no_discontinuity_lines,
             shadow_rays: self.shadow_rays,
             stop: self.stop.unwrap_or(preset.stop),
-            max_shots: self.max_shots,
             solver: self.solver.into(),
             omega: self.omega.unwrap_or(preset.omega),
             hemicube_resolution: self.hemicube_resolution.unwrap_or(preset.hemicube_resolution),
+            ..preset
         }
     }
 }

@@ -6,7 +6,7 @@ mod scene;
 pub(crate) mod values;
 mod view;
 
-pub(crate) use accuracy::AccuracyOptions;
-pub(crate) use report::ReportOptions;
+pub(crate) use accuracy::{AccuracyOptions, MethodOptions};
+pub(crate) use report::{ReportOptions, TalkOptions};
 pub(crate) use scene::SceneOptions;
 pub(crate) use view::{CameraChoice, PictureOptions, display};

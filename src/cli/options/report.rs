@@ -3,7 +3,7 @@
 use clap::Args;
 use radiosity::{Error, Result};
 
-/// Options of every subcommand.
+/// Options of subcommands that have a result for programs.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Reporting")]
 pub(crate) struct ReportOptions {
@@ -11,6 +11,14 @@ pub(crate) struct ReportOptions {
     #[arg(long)]
     pub(crate) json: bool,
 
+    #[command(flatten)]
+    pub(crate) talk: TalkOptions,
+}
+
+/// Options of every subcommand.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Reporting")]
+pub(crate) struct TalkOptions {
     /// No progress and no warnings on stderr, no summary on stdout; errors are still told
     #[arg(short, long)]
     pub(crate) quiet: bool,
@@ -24,7 +32,7 @@ pub(crate) struct ReportOptions {
     threads: Option<usize>,
 }
 
-impl ReportOptions {
+impl TalkOptions {
     /// Settles the number of threads, for good.
     pub(crate) fn use_threads(&self) -> Result<()> {
         let Some(threads) = self.threads else {

@@ -1,5 +1,7 @@
 //! How the values of options are written.
 
+use std::time::Duration;
+
 use glam::DVec3;
 use radiosity::tone::Exposure;
 
@@ -51,6 +53,18 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
     }
 }
 
+/// `90`, `90s`, `2min` or `1h`.
+pub(crate) fn duration(text: &str) -> Result<Duration, String> {
+    let units = [("min", 60.0), ("h", 3600.0), ("s", 1.0)];
+    let found = units.iter().find_map(|(name, unit)| Some((text.strip_suffix(name)?, *unit)));
+    let (amount, unit) = found.unwrap_or((text, 1.0));
+    let seconds = number(amount.trim_end()).ok().map(|amount| amount * unit);
+    seconds
+        .filter(|seconds| *seconds > 0.0)
+        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
+        .ok_or_else(|| "write a time above zero such as 90s or 2min".to_owned())
+}
+
 /// A unit's name, or metres per unit.
 pub(crate) fn units(text: &str) -> Result<f64, String> {
     match text {
@@ -99,6 +113,14 @@ mod tests {
         assert_eq!(share("0.25"), Ok(0.25));
         assert_eq!(share("25%"), Ok(0.25));
         assert!(share("a%").is_err());
+    }
+
+    #[test]
+    fn times_have_units() {
+        assert_eq!(duration("2min"), Ok(Duration::from_secs(120)));
+        assert_eq!(duration("1.5 s"), duration("1.5"));
+        assert_eq!(duration("1h"), duration("3600s"));
+        assert!(duration("0s").is_err() && duration("-1").is_err() && duration("1e300h").is_err());
     }
 
     #[test]

@@ -1,0 +1,193 @@
+//! Uniform and adaptive meshes of one scene, one after the other.
+
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use serde::Serialize;
+
+use super::plan::{Plan, Source};
+use super::profile::{Profile, Trace};
+use super::reference::Reference;
+use super::run::{Family, Run};
+use super::verdict::Verdict;
+use crate::error::{Error, Result};
+use crate::scene::Scene;
+use crate::surface::{Surfaces, surfaces_of};
+
+/// Elements of all solutions that may be kept together; beyond, only those to be shown are.
+const KEPT: usize = 1_500_000;
+
+/// A step of the work, told to the observer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Progress {
+    /// What is being done, in a word or two.
+    pub phase: String,
+    /// How much of it is done, 0..=1.
+    pub done: f64,
+}
+
+/// Uniform and adaptive meshes of one scene, measured.
+#[derive(Clone, Debug, Serialize)]
+pub struct Comparison {
+    /// The scene's surfaces.
+    #[serde(skip)]
+    pub surfaces: Surfaces,
+    /// The truth.
+    #[serde(skip)]
+    pub reference: Reference,
+    /// The runs: uniform from coarse to fine, then adaptive.
+    pub runs: Vec<Run>,
+    /// Who wins, and by how much.
+    pub verdict: Verdict,
+    /// The runs to be shown: the uniform one with about as many elements as the finest adaptive one, and that;
+    /// `None` if a family has no run.
+    pub shown: Option<[usize; 2]>,
+    /// Across the edge of a shadow, with what the runs to be shown make of it; `None` without such an edge.
+    pub profile: Option<(Profile, [Trace; 2])>,
+    /// True if it was stopped before all runs were done.
+    pub interrupted: bool,
+}
+
+/// Compares meshes of a scene; when `observe` breaks off, what is under way is brought to its end and no run
+/// begins any more.
+///
+/// # Errors
+/// Those of [`solve`](crate::solver::solve) and of [`Reference::load`]; when it is stopped before the first run has
+/// begun.
+pub fn compare(
+    scene: &Scene,
+    plan: &Plan,
+    observe: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+) -> Result<Comparison> {
+    let start = Instant::now();
+    let surfaces = surfaces_of(scene);
+    let seconds = start.elapsed().as_secs_f64();
+    plan.validate()?;
+    plan.validate_for(&surfaces)?;
+    let mut observer = Observer { observe, flow: ControlFlow::Continue(()) };
+    let reference = match &plan.reference {
+        Source::File(path) => Reference::load(path, surfaces.extent)?,
+        Source::Traced(effort) => {
+            Reference::trace(&surfaces, effort, &mut |done| observer.tell("reference", done))?
+        }
+    };
+    let mut series =
+        Series { surfaces: &surfaces, seconds, plan, reference: &reference, runs: Vec::new() };
+    series.run(&mut observer)?;
+    let mut runs = series.runs;
+    if runs.is_empty() {
+        return Err(Error::Scene("stopped before the first run".to_owned()));
+    }
+    runs.sort_by(|a, b| {
+        let adaptive = |run: &Run| run.family == Family::Adaptive;
+        adaptive(a).cmp(&adaptive(b)).then(b.knob.total_cmp(&a.knob))
+    });
+    let shown = shown(&runs);
+    let interrupted = observer.flow.is_break();
+    let _ = observer.tell("profile", 0.0);
+    let profile = shown.and_then(|shown| profile((&surfaces, &reference), plan, &runs, shown));
+    let verdict = Verdict::new(&runs, plan.error);
+    Ok(Comparison { verdict, profile, shown, interrupted, surfaces, reference, runs })
+}
+
+/// Tells a caller how far things are, and remembers if it has had enough.
+struct Observer<'a> {
+    observe: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    flow: ControlFlow<()>,
+}
+
+impl Observer<'_> {
+    fn tell(&mut self, phase: &str, done: f64) -> ControlFlow<()> {
+        let told = (self.observe)(&Progress { phase: phase.to_owned(), done });
+        if told.is_break() {
+            self.flow = told;
+        }
+        self.flow
+    }
+}
+
+/// Runs on their way.
+struct Series<'a> {
+    surfaces: &'a Surfaces,
+    seconds: f64,
+    plan: &'a Plan,
+    reference: &'a Reference,
+    runs: Vec<Run>,
+}
+
+impl Series<'_> {
+    /// Adaptive runs first: they tell how fine uniform ones have to be.
+    fn run(&mut self, observer: &mut Observer<'_>) -> Result<()> {
+        for &tolerance in &self.plan.adaptive {
+            self.add((Family::Adaptive, tolerance), observer)?;
+        }
+        let most = self.runs.iter().map(|run| run.elements).max().unwrap_or(0);
+        if observer.flow.is_continue() {
+            for size in self.plan.sizes(self.surfaces, most) {
+                self.add((Family::Uniform, size), observer)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, (family, knob): (Family, f64), observer: &mut Observer<'_>) -> Result<()> {
+        let (settings, name) = match family {
+            Family::Uniform => (self.plan.uniform_settings(knob), format!("uniform {knob:.3} m")),
+            Family::Adaptive => (self.plan.adaptive_settings(knob), format!("adaptive {knob}")),
+        };
+        if observer.tell(&name, 0.0).is_break() {
+            return Ok(());
+        }
+        let scene = (self.surfaces, self.seconds);
+        let run = Run::new(scene, (family, knob), &settings, self.reference, &mut |progress| {
+            // The phases take about as long.
+            let done = (f64::from(progress.phase as u8) + progress.done) / 3.0;
+            let _ = observer.tell(&name, done);
+        })?;
+        self.runs.push(run);
+        self.spare_memory();
+        Ok(())
+    }
+
+    /// Forgets solutions that will not be shown, if all are too many.
+    fn spare_memory(&mut self) {
+        let kept: usize = self.runs.iter().filter(|r| r.lit.is_some()).map(|r| r.elements).sum();
+        if kept <= KEPT {
+            return;
+        }
+        let is_adaptive = |run: &&Run| run.family == Family::Adaptive;
+        let finest = self.runs.iter().filter(is_adaptive).map(|run| run.knob).reduce(f64::min);
+        let shown = shown(&self.runs);
+        for (number, run) in self.runs.iter_mut().enumerate() {
+            let is_finest = run.family == Family::Adaptive && Some(run.knob) == finest;
+            if !is_finest && shown.is_none_or(|shown| !shown.contains(&number)) {
+                run.lit = None;
+            }
+        }
+    }
+}
+
+/// The uniform run nearest, by ratio of elements, to the finest adaptive one, and that.
+fn shown(runs: &[Run]) -> Option<[usize; 2]> {
+    let of = |family: Family| (0..runs.len()).filter(move |&k| runs[k].family == family);
+    let finest = of(Family::Adaptive).min_by(|&a, &b| runs[a].knob.total_cmp(&runs[b].knob))?;
+    let gap = |k: usize| (runs[k].elements as f64 / runs[finest].elements as f64).ln().abs();
+    let nearest = of(Family::Uniform).min_by(|&a, &b| gap(a).total_cmp(&gap(b)))?;
+    Some([nearest, finest])
+}
+
+fn profile(
+    (surfaces, reference): (&Surfaces, &Reference),
+    plan: &Plan,
+    runs: &[Run],
+    shown: [usize; 2],
+) -> Option<(Profile, [Trace; 2])> {
+    if plan.profile_paths == 0 {
+        return None;
+    }
+    let profile = Profile::find(surfaces, reference, plan.profile_paths)?;
+    let trace = |run: usize| Some(profile.trace(surfaces, runs[run].lit.as_ref()?));
+    let [uniform, adaptive] = shown.map(trace);
+    let traces = [uniform?, adaptive?];
+    Some((profile, traces))
+}

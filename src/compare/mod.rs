@@ -1,0 +1,43 @@
+//! Uniform and adaptive meshes side by side: their errors against a reference, and what they cost.
+//!
+//! ```text
+//! Scene → Surfaces → Reference → a Run for each mesh → Verdict, Profile
+//! ```
+//!
+//! One reference, one norm weighted by area, one tolerance of the solver, the same exact direct light and the same
+//! threads for all; time includes every set-up.
+
+mod arrays;
+mod comparison;
+mod curve;
+mod estimate;
+mod locate;
+mod memory;
+mod plan;
+mod profile;
+mod record;
+mod reference;
+mod run;
+mod sampler;
+mod scatter;
+mod score;
+mod sentences;
+mod table;
+mod verdict;
+
+pub use comparison::{Comparison, Progress, compare};
+pub use curve::{Curve, Needed};
+pub use estimate::Effort;
+pub use locate::Locator;
+pub use plan::{Plan, Source};
+pub use profile::{Profile, Trace};
+pub use record::{check_writable, save};
+pub use reference::{Origin, Point, Reference, Set};
+pub use run::{Family, Lit, Run, Seconds};
+pub use sampler::Site;
+pub use score::{Band, Errors, Score, score};
+pub use sentences::{number, percent};
+pub use verdict::{
+    AtEqualCost, AtEqualError, BandVerdict, Contest, Cost, LAWS, Slopes, TIE, Verdict, Winner,
+    nearest_law,
+};

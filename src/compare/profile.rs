@@ -1,0 +1,216 @@
+//! Radiosity along a line across the edge of a shadow: what every mesh makes of it.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::estimate::{Effort, Estimate};
+use super::locate::Locator;
+use super::reference::{Reference, Set};
+use super::run::Lit;
+use super::sampler::{Sampler, Site};
+use crate::colour::luminance;
+use crate::surface::polygon::{Line, contains, edges};
+use crate::surface::{Surface, Surfaces};
+
+/// Places along the line.
+const PLACES: usize = 65;
+
+/// Length of the line, in widths of the penumbra.
+const WIDTHS: f64 = 5.0;
+
+/// Step of differences, as a share of the extent.
+const STEP: f64 = 1e-3;
+
+/// Steps away from the middle at which a penumbra is taken for the whole surface.
+const FARTHEST: usize = 150;
+
+/// Surfaces below this share of the largest one's area have no profile.
+const LARGE: f64 = 0.05;
+
+/// The gradient may change by this factor when its step is halved; where it changes more, light jumps.
+const SMOOTH: f64 = 1.5;
+
+/// A straight line on a surface, across the edge of a shadow.
+#[derive(Clone, Debug, Serialize)]
+pub struct Profile {
+    /// The surface, an index into [`Surfaces::list`].
+    pub surface: usize,
+    /// Its ends, m.
+    pub ends: [[f64; 3]; 2],
+    /// Width of the penumbra across which it runs, m.
+    pub penumbra: f64,
+    /// Where the places are, m from the first end.
+    pub at: Vec<f64>,
+    /// Luminance of the radiosity there, W/m²: direct light exactly, the rest by paths.
+    pub reference: Vec<f64>,
+    /// Standard errors of that, W/m².
+    pub error: Vec<f64>,
+}
+
+/// What a mesh makes of a profile.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Trace {
+    /// Luminance of the radiosity at the places, W/m²; `None` where there is no triangle.
+    pub values: Vec<Option<f64>>,
+    /// Where edges of leaves cross the line, m from its first end.
+    pub ticks: Vec<f64>,
+}
+
+/// The steepest place of a shadow, and which way it falls.
+struct Edge {
+    site: Site,
+    /// Unit vector on the surface's plane, towards the light.
+    direction: DVec2,
+    /// Change of direct irradiance, W/m³.
+    steepness: f64,
+}
+
+impl Profile {
+    /// Across the steepest smooth edge of a shadow on a large surface; `None` if there is none.
+    pub fn find(surfaces: &Surfaces, reference: &Reference, paths: usize) -> Option<Self> {
+        let sampler = Sampler::new(surfaces);
+        let edge = steepest(&sampler, reference)?;
+        let surface = &surfaces.list[edge.site.surface];
+        let middle = surface.plane.flatten(edge.site.place);
+        let (penumbra, centre) = width(&sampler, &edge, middle)?;
+        let along = edge.direction * (WIDTHS * penumbra / 2.0);
+        let ends = clipped(surface, middle + edge.direction * centre, along)?;
+        let length = ends[0].distance(ends[1]);
+        let at: Vec<f64> = (0..PLACES).map(|k| length * k as f64 / (PLACES - 1) as f64).collect();
+        let site = |&at: &f64| {
+            let place = surface.plane.lift(ends[0].lerp(ends[1], at / length));
+            Site { place, ..edge.site }
+        };
+        let sites: Vec<Site> = at.iter().map(site).collect();
+        let effort = Effort { paths: (paths / 16).max(1) as u32, ..Effort::default() };
+        let mut estimate = Estimate::new(&sampler, &sites);
+        (0..effort.rounds).for_each(|_| estimate.round((&sampler, &sites), &effort));
+        let found: Vec<[f64; 2]> =
+            (0..PLACES).map(|k| estimate.radiosity(k).map(luminance)).collect();
+        Some(Self {
+            surface: edge.site.surface,
+            ends: ends.map(|end| surface.plane.lift(end).to_array()),
+            penumbra,
+            at,
+            reference: found.iter().map(|found| found[0]).collect(),
+            error: found.iter().map(|found| found[1]).collect(),
+        })
+    }
+
+    /// The line as a mesh has it.
+    pub fn trace(&self, surfaces: &Surfaces, lit: &Lit) -> Trace {
+        let Surface { plane, .. } = &surfaces.list[self.surface];
+        let ends = self.ends.map(DVec3::from);
+        let length = ends[0].distance(ends[1]);
+        let locator = Locator::new(&lit.mesh, surfaces.extent);
+        let value = |&at: &f64| {
+            let place = ends[0].lerp(ends[1], at / length);
+            locator.radiosity(place, plane.normal).map(luminance)
+        };
+        let line = Line::through(ends.map(|end| plane.flatten(end)));
+        let start = plane.flatten(ends[0]);
+        let along = (plane.flatten(ends[1]) - start).normalize_or_zero();
+        let mesh = &lit.solution.mesh;
+        let outlines = mesh.leaves().filter(|&leaf| mesh.surface_of(leaf) == self.surface);
+        let mut ticks: Vec<f64> = outlines
+            .flat_map(|leaf| edges(&mesh.outline(leaf)).collect::<Vec<_>>())
+            .filter_map(|[a, b]| {
+                let (from, to) = (line.side(a, 0.0), line.side(b, 0.0));
+                (from * to <= 0.0 && from != to)
+                    .then(|| (a.lerp(b, from / (from - to)) - start).dot(along))
+            })
+            .filter(|tick| (0.0..=length).contains(tick))
+            .collect();
+        ticks.sort_by(f64::total_cmp);
+        ticks.dedup_by(|a, b| (*a - *b).abs() <= surfaces.tolerance * 10.0);
+        Trace { values: self.at.iter().map(value).collect(), ticks }
+    }
+}
+
+/// The steepest edge among the places of the shadow set; where light jumps there is no penumbra.
+fn steepest(sampler: &Sampler<'_>, reference: &Reference) -> Option<Edge> {
+    let surfaces = sampler.surfaces;
+    let largest = surfaces.list.iter().map(Surface::area).fold(0.0, f64::max);
+    let shadow = reference.points.iter().filter(|point| point.set == Set::Shadow);
+    let sites: Vec<Site> = shadow
+        .filter_map(|point| {
+            let surface = surface_at(surfaces, point.place, point.normal)?;
+            let large = surfaces.list[surface].area() >= LARGE * largest;
+            large.then_some(Site { surface, place: point.place, normal: point.normal })
+        })
+        .collect();
+    let found: Vec<Option<Edge>> = sites.par_iter().map(|site| edge(sampler, site)).collect();
+    let found = found.into_iter().flatten();
+    found.reduce(|best, edge| if edge.steepness > best.steepness { edge } else { best })
+}
+
+/// The surface that a place is on.
+fn surface_at(surfaces: &Surfaces, place: DVec3, normal: DVec3) -> Option<usize> {
+    let slack = 1e-4 * surfaces.extent;
+    surfaces.list.iter().position(|surface| {
+        surface.plane.normal.dot(normal) > 0.9
+            && surface.plane.height(place).abs() <= slack
+            && contains(&surface.rings, surface.plane.flatten(place))
+    })
+}
+
+/// How shadow falls at a place, if smoothly.
+fn edge(sampler: &Sampler<'_>, site: &Site) -> Option<Edge> {
+    let step = STEP * sampler.surfaces.extent;
+    let whole = gradient(sampler, site, step)?;
+    let half = gradient(sampler, site, step / 2.0)?;
+    let steepness = whole.length();
+    let smooth = steepness > 0.0 && half.length() <= SMOOTH * steepness;
+    smooth.then(|| Edge { site: *site, direction: whole.normalize_or_zero(), steepness })
+}
+
+/// Change of the visible share of lamps, times what they would send, on the plane of a place, W/m³.
+fn gradient(sampler: &Sampler<'_>, site: &Site, step: f64) -> Option<DVec2> {
+    let surface = &sampler.surfaces.list[site.surface];
+    let middle = surface.plane.flatten(site.place);
+    let visible = |offset: DVec2| visible(sampler, site, middle + offset);
+    let along = |axis: DVec2| Some((visible(axis * step)? - visible(-axis * step)?) / (2.0 * step));
+    let all = sampler.direct(site).unoccluded.element_sum() / 3.0;
+    Some(DVec2::new(along(DVec2::X)?, along(DVec2::Y)?) * all)
+}
+
+/// Share of the lamps that is seen from a place on a site's surface; `None` off the surface.
+fn visible(sampler: &Sampler<'_>, site: &Site, at: DVec2) -> Option<f64> {
+    let surface = &sampler.surfaces.list[site.surface];
+    let place = surface.plane.lift(at);
+    contains(&surface.rings, at).then(|| sampler.direct(&Site { place, ..*site }).visible())
+}
+
+/// Width of a penumbra, m, and how far its middle is from a place in it, along the edge's direction.
+fn width(sampler: &Sampler<'_>, edge: &Edge, middle: DVec2) -> Option<(f64, f64)> {
+    let step = STEP * sampler.surfaces.extent;
+    let seen = |k: usize, sign: f64| {
+        visible(sampler, &edge.site, middle + edge.direction * (sign * step * k as f64))
+    };
+    let walk = |sign: f64| {
+        let mut last = seen(0, sign).unwrap_or_default();
+        for k in 1..FARTHEST {
+            let Some(next) = seen(k, sign) else { return k as f64 };
+            // Over when the light turns, or hardly changes any more.
+            if (next - last) * sign < 1e-4 {
+                return k as f64;
+            }
+            last = next;
+        }
+        FARTHEST as f64
+    };
+    let (up, down) = (walk(1.0) * step, walk(-1.0) * step);
+    (up + down > 0.0).then_some((up + down, (up - down) / 2.0))
+}
+
+/// The part of the line from `middle - along` to `middle + along` around its middle that is on a surface.
+fn clipped(surface: &Surface, middle: DVec2, along: DVec2) -> Option<[DVec2; 2]> {
+    let reach = |direction: DVec2| {
+        let inside = |share: f64| contains(&surface.rings, middle + direction * share);
+        let steps = (1..=256).map(|k| f64::from(k) / 256.0);
+        steps.take_while(|&share| inside(share)).last()
+    };
+    let [low, high] = [-along, along].map(|way| reach(way).map(|share| middle + way * share));
+    Some([low?, high?])
+}

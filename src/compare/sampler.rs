@@ -1,0 +1,153 @@
+//! Reflected light at a point, by paths: no mesh, no noise that is not told.
+
+use std::f64::consts::TAU;
+
+use fastrand::Rng;
+use glam::{DMat3, DVec2, DVec3};
+
+use crate::colour::Rgb;
+use crate::direct::Lamps;
+use crate::mesh::{Direct, Mesh};
+use crate::settings::Settings;
+use crate::surface::{Surface, Surfaces};
+use crate::visibility::{Met, Occluders};
+
+/// Steps of the R₂ sequence, which fills the unit square evenly ([Roberts 2018]): 1 / g and 1 / g², g³ = g + 1.
+///
+/// [Roberts 2018]: https://extremelearning.com.au/unreasonable-effectiveness-of-quasirandom-sequences/
+pub(super) const R2: DVec2 = DVec2::new(0.754_877_666_246_692_8, 0.569_840_290_998_053_3);
+
+/// The most a path may be sure to go on.
+const SURVIVAL: f64 = 0.95;
+
+/// A place on a surface, in front of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Site {
+    /// Index into [`Surfaces::list`].
+    pub surface: usize,
+    /// The place, m.
+    pub place: DVec3,
+    /// Unit normal.
+    pub normal: DVec3,
+}
+
+/// What paths from a place have found.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Found {
+    /// Irradiance by reflected light, W/m².
+    pub(super) indirect: Rgb,
+    /// Share of the paths that met nothing at all.
+    pub(super) escaped: f64,
+}
+
+/// Light of a scene anywhere: straight from emitters exactly, the rest by paths.
+#[derive(Debug)]
+pub(super) struct Sampler<'a> {
+    pub(super) surfaces: &'a Surfaces,
+    occluders: Occluders,
+    lamps: Lamps,
+}
+
+impl<'a> Sampler<'a> {
+    pub(super) fn new(surfaces: &'a Surfaces) -> Self {
+        // Of the mesh, only textured lamps have something: they are as many as it has patches of them.
+        let mesh = Mesh::new(surfaces, &Settings::medium());
+        Self { surfaces, occluders: Occluders::new(surfaces), lamps: Lamps::new(surfaces, &mesh) }
+    }
+
+    /// Light straight from emitters, W/m².
+    pub(super) fn direct(&self, site: &Site) -> Direct {
+        self.lamps.shine(&self.occluders, site.place, site.normal)
+    }
+
+    /// Diffuse reflectance at a place, its texel included.
+    pub(super) fn reflectance(&self, site: &Site) -> Rgb {
+        let surface = &self.surfaces.list[site.surface];
+        surface.reflectance * texel(self.surfaces, surface, site.place)
+    }
+
+    /// Light that arrives by reflection, by `paths` paths whose first directions fill the hemisphere evenly.
+    pub(super) fn indirect(&self, site: &Site, paths: u32, random: &mut Rng) -> Found {
+        let frame = frame(site.normal);
+        let shift = DVec2::new(random.f64(), random.f64());
+        let mut found = Found::default();
+        let share = 1.0 / f64::from(paths);
+        for path in 0..paths {
+            let direction = frame * cosine_weighted((shift + R2 * f64::from(path)).fract());
+            match self.meet(site.place, direction) {
+                None => found.escaped += share,
+                Some((_, false)) => (),
+                Some((met, true)) => found.indirect += self.path(met, random) * share,
+            }
+        }
+        found
+    }
+
+    /// Share of what a place sees, by its cosine, that is the backs of surfaces.
+    pub(super) fn backs(&self, site: &Site, looks: u32) -> f64 {
+        let frame = frame(site.normal);
+        let is_back = |look: &u32| {
+            let direction = cosine_weighted((R2 * f64::from(*look)).fract());
+            matches!(self.meet(site.place, frame * direction), Some((_, false)))
+        };
+        (0..looks).filter(is_back).count() as f64 / f64::from(looks)
+    }
+
+    /// What a ray meets first, and whether that is the front of a surface.
+    fn meet(&self, place: DVec3, direction: DVec3) -> Option<(Site, bool)> {
+        let Met { place, surface, front } = self.occluders.first(place, direction)?;
+        // The two sides of a double-sided polygon stand one behind the other.
+        let other = !front && self.surfaces.list[surface as usize].two_sided;
+        let surface = surface as usize + usize::from(other);
+        let normal = self.surfaces.list[surface].plane.normal;
+        Some((Site { surface, place, normal }, front || other))
+    }
+
+    /// Radiosity by reflection at a place and along one path from it, W/m²; emission is not part of it.
+    ///
+    /// B = ρ (direct + B') with B' that of the place which the path meets next, and so on; it goes on with
+    /// a probability that falls with what it still carries, and then carries that much more.
+    fn path(&self, start: Site, random: &mut Rng) -> Rgb {
+        let (mut carried, mut light) = (Rgb::ONE, Rgb::ZERO);
+        let mut site = start;
+        loop {
+            carried *= self.reflectance(&site);
+            let survival = carried.max_element().min(SURVIVAL);
+            if survival <= 0.0 {
+                return light;
+            }
+            light += carried * self.direct(&site).irradiance;
+            if random.f64() >= survival {
+                return light;
+            }
+            carried /= survival;
+            let square = DVec2::new(random.f64(), random.f64());
+            match self.meet(site.place, frame(site.normal) * cosine_weighted(square)) {
+                Some((next, true)) => site = next,
+                _ => return light,
+            }
+        }
+    }
+}
+
+/// Colour of the texture at a place; 1 where there is none.
+pub(super) fn texel(surfaces: &Surfaces, surface: &Surface, place: DVec3) -> Rgb {
+    let texture = surfaces.materials[surface.material as usize].texture;
+    texture.zip(surface.uv).map_or(Rgb::ONE, |(texture, uv)| {
+        let at = uv.transform_point2(surface.plane.flatten(place));
+        surfaces.textures[texture as usize].sample(at)
+    })
+}
+
+/// A frame whose third axis is the normal.
+fn frame(normal: DVec3) -> DMat3 {
+    let (u, v) = normal.any_orthonormal_pair();
+    DMat3::from_cols(u, v, normal)
+}
+
+/// A direction about +z, as many in each as its cosine (Malley: even on the disc, lifted to the sphere).
+fn cosine_weighted(square: DVec2) -> DVec3 {
+    let (sine, cosine) = (TAU * square.y).sin_cos();
+    let radius = square.x.sqrt();
+    DVec3::new(radius * cosine, radius * sine, (1.0 - square.x).max(0.0).sqrt())
+}

@@ -1,0 +1,162 @@
+//! How far a mesh is from the reference.
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::locate::Locator;
+use super::reference::{Point, Reference, Set};
+use crate::colour::Rgb;
+use crate::reconstruct::TriMesh;
+
+/// Which places an error is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Band {
+    /// The area set: all surfaces.
+    All,
+    /// The shadow set: along the edges of shadows.
+    Shadow,
+    /// What of the area set is not near the edge of a shadow.
+    Rest,
+}
+
+impl Band {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::All, Self::Shadow, Self::Rest];
+
+    /// What it is called in sentences.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::All => "all surfaces",
+            Self::Shadow => "shadow band",
+            Self::Rest => "elsewhere",
+        }
+    }
+}
+
+/// Errors over a set of places, as shares of their mean radiosity; places count by their weight, channels alike.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Errors {
+    /// How many places.
+    pub points: usize,
+    /// Mean radiosity of the reference, W/m².
+    pub mean: f64,
+    /// Root mean square, the reference's own variance taken off.
+    pub rmse: f64,
+    /// Root mean square as measured, the reference's error included.
+    pub raw_rmse: f64,
+    /// Mean of the magnitudes (L1).
+    pub mean_absolute: f64,
+    /// Mean, with sign: above zero if the mesh has too much light.
+    pub bias: f64,
+    /// Half of the places are no farther off, by the mean of the channels' magnitudes.
+    pub median: f64,
+    /// 95 % are no farther off.
+    pub p95: f64,
+    /// None is farther off.
+    pub max: f64,
+    /// Root mean square of the reference's standard errors.
+    pub noise: f64,
+    /// A root mean square error below this is not resolved: twice the standard deviation, by chance, of the
+    /// variance that is taken off, Σ w² se⁴ · 2 summed over places, to the power ¼.
+    pub floor: f64,
+}
+
+/// A mesh against a reference.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Score {
+    /// Over the area set.
+    pub all: Errors,
+    /// Over the shadow set.
+    pub shadow: Errors,
+    /// Over what of the area set is not in the shadow band.
+    pub rest: Errors,
+    /// Places that no triangle is near; they count as black.
+    pub unmatched: usize,
+    /// By point of the reference: radiosity of the mesh minus the reference's, W/m².
+    #[serde(skip)]
+    pub signed: Vec<Rgb>,
+}
+
+impl Score {
+    /// The errors over one of the sets.
+    pub fn of(&self, band: Band) -> &Errors {
+        match band {
+            Band::All => &self.all,
+            Band::Shadow => &self.shadow,
+            Band::Rest => &self.rest,
+        }
+    }
+}
+
+/// The errors of the mesh of a scene of this extent, m, at the places of a reference.
+pub fn score(reference: &Reference, mesh: &TriMesh, extent: f64) -> Score {
+    let locator = Locator::new(mesh, extent);
+    let points = &reference.points;
+    let found: Vec<Option<Rgb>> = points
+        .par_iter()
+        .map(|point| locator.radiosity(point.place, point.normal).filter(|b| b.is_finite()))
+        .collect();
+    let signed: Vec<Rgb> =
+        found.iter().zip(points).map(|(b, p)| b.unwrap_or(Rgb::ZERO) - p.radiosity).collect();
+    let errors = |chosen: &dyn Fn(usize) -> bool| {
+        let chosen = (0..points.len()).filter(|&k| chosen(k));
+        errors(&chosen.map(|k| (&points[k], signed[k])).collect::<Vec<_>>())
+    };
+    let is = |set: Set| move |k: usize| points[k].set == set;
+    Score {
+        all: errors(&is(Set::Area)),
+        shadow: errors(&is(Set::Shadow)),
+        rest: errors(&|k| points[k].set == Set::Area && !reference.in_band[k]),
+        unmatched: found.iter().filter(|b| b.is_none()).count(),
+        signed,
+    }
+}
+
+/// Errors at places with what the mesh has too much there.
+fn errors(points: &[(&Point, Rgb)]) -> Errors {
+    let total: f64 = points.iter().map(|(point, _)| point.weight).sum();
+    let mean_of = |value: &dyn Fn(&Point, Rgb) -> f64| {
+        points.iter().map(|(point, d)| point.weight / total * value(point, *d)).sum::<f64>()
+    };
+    let mean = mean_of(&|point, _| grey(point.radiosity));
+    if points.is_empty() || mean <= 0.0 {
+        return Errors { points: points.len(), ..Errors::default() };
+    }
+    let square = mean_of(&|_, d| grey(d * d));
+    let variance = mean_of(&|point, _| grey(point.error * point.error));
+    let luck = |(point, _): &(&Point, Rgb)| {
+        2.0 * (point.weight / total * grey(point.error * point.error)).powi(2)
+    };
+    let luck = points.iter().map(luck).sum::<f64>().sqrt();
+    let mut sizes: Vec<(f64, f64)> =
+        points.iter().map(|(point, d)| (grey(d.abs()) / mean, point.weight / total)).collect();
+    sizes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Errors {
+        points: points.len(),
+        mean,
+        rmse: (square - variance).max(0.0).sqrt() / mean,
+        raw_rmse: square.sqrt() / mean,
+        mean_absolute: mean_of(&|_, d| grey(d.abs())) / mean,
+        bias: mean_of(&|_, d| grey(d)) / mean,
+        median: quantile(&sizes, 0.5),
+        p95: quantile(&sizes, 0.95),
+        max: sizes.last().map_or(0.0, |&(size, _)| size),
+        noise: variance.sqrt() / mean,
+        floor: (2.0 * luck).sqrt() / mean,
+    }
+}
+
+/// Mean of the channels.
+fn grey(colour: Rgb) -> f64 {
+    colour.element_sum() / 3.0
+}
+
+/// The value below which this share of the weight is; values ascend.
+fn quantile(values: &[(f64, f64)], share: f64) -> f64 {
+    let mut sum = 0.0;
+    let reached = values.iter().find(|(_, weight)| {
+        sum += weight;
+        sum >= share
+    });
+    reached.or(values.last()).map_or(0.0, |&(value, _)| value)
+}
