@@ -1,5 +1,5 @@
 //! Light on its way, to turn and look at: a page with the Cornell box after 1, 2, 24 and 100 shots,
-//! each with its error against the light after all shots, which stands beside it.
+//! each with its error against the light after 1000 shots, which stands beside it.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -7,24 +7,23 @@ use std::path::Path;
 use radiosity::page::{self, Cell, Model, Step, Table, Viewer, WipePicture, html};
 use radiosity::render::{self, Display, RenderOptions, View};
 use radiosity::scene::{Camera, LoadOptions};
+use radiosity::solver::Progress;
 use radiosity::tone::{Exposure, exposure_scale};
-use radiosity::{Settings, Solution, TriMesh, load, reconstruct, solve, surfaces_of};
+use radiosity::{Settings, Solution, TriMesh, load, reconstruct, solve_in_stages, surfaces_of};
 
 fn main() -> radiosity::Result<()> {
     let scene = load(Path::new("scenes/cornell-box.glb"), &LoadOptions::default())?;
     let surfaces = surfaces_of(&scene);
-    let after = |max_shots| {
-        let settings = Settings { max_shots: Some(max_shots), ..Settings::draft() };
-        solve(&surfaces, &settings, |_| ControlFlow::Continue(()))
+    // The first shot is the lamp's.
+    let reflected = [1, 2, 24, 100, 1000].map(|shots| shots - 1);
+    let go_on = |_: &Progress| ControlFlow::Continue(());
+    let (_, stages) = solve_in_stages(&surfaces, &Settings::draft(), &reflected, go_on)?;
+    let mut steps: Vec<(TriMesh, Solution)> =
+        stages.into_iter().map(|stage| (reconstruct(&surfaces, &stage), stage)).collect();
+    let Some((reference, end)) = steps.pop() else {
+        return Ok(());
     };
-    let lamp_patches = after(0)?.shots;
-    // One shot less than all: the mesh is not refined to reflected light and so is the same in all.
-    let all = after(usize::MAX)?.shots - 1;
-    let shots = [1, 2, 24, 100].map(|shots| lamp_patches + shots - 1);
-    let lit = |shots| after(shots).map(|solution| (reconstruct(&surfaces, &solution), solution));
-    let steps: radiosity::Result<Vec<(TriMesh, Solution)>> = shots.into_iter().map(lit).collect();
-    let (reference, end) = lit(all)?;
-    let page = document(&steps?, (&reference, &end), &scene.cameras[0]);
+    let page = document(&steps, (&reference, &end), &scene.cameras[0]);
     page::save(&page, Path::new("out/progressive.html"))
 }
 
@@ -39,18 +38,19 @@ fn document(
         render::png(&render::render(mesh, camera, &options), &Display::exposed(exposure))
     };
     let step = |(mesh, solution): &(TriMesh, Solution)| Step {
-        label: format!("{} shots", solution.shots),
+        label: format!("{} shots", 1 + solution.reflected_shots()),
         model: Model::of_solution(mesh, &solution.mesh).with_errors(&errors(mesh, reference)),
     };
     let viewer = |steps: &[Step], alt: &str, still: &[u8]| {
         let (group, caption, still) = ("box", alt, Some(still));
         page::viewer(&Viewer { steps, camera, exposure, group, alt, caption, still })
     };
-    let all = Step { label: "all".to_owned(), model: Model::of_solution(reference, &end.mesh) };
+    let all =
+        Step { label: "1000 shots".to_owned(), model: Model::of_solution(reference, &end.mesh) };
     let first = &steps[0].0;
     let stills = [first, reference].map(|mesh| picture(mesh, View::Light));
     let meshes = [first, reference].map(|mesh| picture(mesh, View::Wireframe));
-    let pictures = [("first", 0), ("all", 1)].map(|(label, number)| WipePicture {
+    let pictures = [("first shot", 0), ("1000 shots", 1)].map(|(label, number)| WipePicture {
         label,
         png: &stills[number],
         alt: "The Cornell box",
@@ -58,15 +58,15 @@ fn document(
     });
     let row = |(_, solution): &(TriMesh, Solution)| {
         let unshot = 100.0 * solution.energy.unshot_share();
-        vec![Cell::count(solution.shots), Cell::number(unshot, 2)]
+        vec![Cell::count(1 + solution.reflected_shots()), Cell::number(unshot, 2)]
     };
     let body = html! {
         h1 { "Light on its way" }
         (page::columns(&[
             viewer(&steps.iter().map(step).collect::<Vec<_>>(), "After some shots", &stills[0]),
-            viewer(&[all], "After all shots", &stills[1]),
+            viewer(&[all], "After 1000 shots", &stills[1]),
         ]))
-        (page::wipe(&pictures, "After the lamp has shot, and after all have."))
+        (page::wipe(&pictures, "After the lamp alone has shot, and long after."))
         (page::table(&Table {
             caption: "",
             header: &["shots", "light unshot, %"],

@@ -93,5 +93,5 @@ pub use error::{Error, Result};
 pub use reconstruct::{TriMesh, reconstruct};
 pub use scene::{Scene, load};
 pub use settings::{Length, Settings};
-pub use solver::{Solution, solve};
+pub use solver::{Solution, solve, solve_in_stages};
 pub use surface::{Surfaces, faces_of, surfaces_of};

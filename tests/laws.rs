@@ -3,6 +3,7 @@
 mod common;
 
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
 
 use common::{
     Block, Stage, assert_sane, coarse, corners, furnished_room, mean_radiosity, mesh_of,
@@ -239,4 +240,23 @@ fn a_panel_of_two_faces_back_to_back_is_a_double_sided_panel() {
     two.polygon(white, &corners);
     let [one, two] = [one, two].map(|stage| mean_radiosity(&mesh_of(&stage.scene, &coarse())));
     assert!((one / two - 1.0).abs() < 0.005, "{one} and {two} W/m²");
+}
+
+#[test]
+fn stages_are_what_a_limit_of_shots_leaves_and_lead_to_the_same_end() {
+    let surfaces = surfaces_of(&furnished_room(&[]));
+    let go_on = |_: &radiosity::solver::Progress| ControlFlow::Continue(());
+    let (end, stages) =
+        radiosity::solve_in_stages(&surfaces, &coarse(), &[0, 3, 20, 1_000_000], go_on).unwrap();
+    let found: Vec<usize> = stages.iter().map(radiosity::Solution::reflected_shots).collect();
+    assert_eq!(found, [0, 3, 20], "what is never reached is left out");
+    let light = |solution| radiosity::reconstruct(&surfaces, solution).radiosity;
+    for stage in &stages {
+        let limited = Settings { max_shots: Some(stage.shots), ..coarse() };
+        assert_eq!(light(stage), light(&solve(&surfaces, &limited)));
+        assert!(stage.energy.imbalance().abs() < 0.005 && stage.ambient.min_element() > 0.0);
+    }
+    let unshot = stages.iter().chain([&end]).map(|stage| stage.energy.unshot_share());
+    assert!(unshot.is_sorted_by(|more, less| more > less));
+    assert_eq!(light(&end), light(&solve(&surfaces, &coarse())));
 }

@@ -16,7 +16,6 @@ mod outputs;
 mod page;
 mod record;
 mod render;
-mod snapshots;
 mod solve;
 mod summary;
 

@@ -1,18 +1,16 @@
 //! `--html`: a solution as a page to share.
 
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use radiosity::Result;
 use radiosity::page::{self, Cell, Markup, Model, Step, Table, Viewer, html};
-use radiosity::render::{Display, Subject, View, png};
+use radiosity::render::{Display, Solved, Subject, View, png};
+use radiosity::{Result, Solution, TriMesh, reconstruct};
 
 use super::interrupt::Interrupt;
 use super::meter::{Meter, Timing};
 use super::options::{CameraChoice, PictureOptions};
 use super::record::SettingsRecord;
-use super::snapshots;
 use super::summary::Summary;
 
 /// The page to write, and what may be seen in it.
@@ -29,7 +27,7 @@ pub(crate) struct PageOptions {
     /// With --html: the light after this many shots too, to step through: 1,2,24,100
     ///
     /// The first shot is that of all lamps, each further one that of the patch with the most unshot
-    /// light; the rest is estimated as ambient light. Each takes about as long as the solution.
+    /// light; the rest is estimated as ambient light.
     #[arg(long, value_name = "SHOTS", value_delimiter = ',', requires = "html")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) snapshots: Vec<u32>,
@@ -39,7 +37,10 @@ pub(crate) struct PageOptions {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Account<'a> {
     pub(crate) scene: &'a Path,
-    pub(crate) subject: Subject<'a>,
+    pub(crate) mesh: &'a TriMesh,
+    pub(crate) solved: Solved<'a>,
+    /// The light on its way.
+    pub(crate) stages: &'a [Solution],
     pub(crate) camera: &'a CameraChoice,
     pub(crate) display: Display,
     pub(crate) summary: &'a Summary,
@@ -48,6 +49,15 @@ pub(crate) struct Account<'a> {
 }
 
 impl PageOptions {
+    /// Numbers of shots of reflected light after which the light is to be shown, rising.
+    pub(crate) fn stages(&self) -> Vec<usize> {
+        let mut stages: Vec<usize> =
+            self.snapshots.iter().map(|&shots| shots as usize - 1).collect();
+        stages.sort_unstable();
+        stages.dedup();
+        stages
+    }
+
     /// Whether the page could be written.
     pub(crate) fn check(&self) -> Result<()> {
         self.html.as_deref().map_or(Ok(()), page::check_writable)
@@ -64,11 +74,13 @@ impl PageOptions {
         let Some(path) = &self.html else {
             return Ok(());
         };
-        let mut steps = self.snapshots(account, interrupt, meter)?;
         meter.begin("page");
+        let mut steps: Vec<Step> =
+            account.stages.iter().map(|stage| early_step(&account.solved, stage)).collect();
         steps.push(last_step(account));
-        let camera = options.camera(account.camera, account.subject.mesh);
-        let picture = options.picture(View::Light, account.subject, &camera, |done| {
+        let camera = options.camera(account.camera, account.mesh);
+        let subject = Subject { mesh: account.mesh, solved: Some(account.solved) };
+        let picture = options.picture(View::Light, subject, &camera, |done| {
             meter.advance("page", done);
             interrupt.flow()
         });
@@ -86,30 +98,17 @@ impl PageOptions {
         let body = body(account, &viewer, meter.timings());
         page::save(&page::document(&title, &body), path)
     }
+}
 
-    fn snapshots(
-        &self,
-        account: &Account<'_>,
-        interrupt: &Interrupt,
-        meter: &mut Meter,
-    ) -> Result<Vec<Step>> {
-        let Some(solved) = account.subject.solved.filter(|_| !self.snapshots.is_empty()) else {
-            return Ok(Vec::new());
-        };
-        meter.begin("snapshots");
-        snapshots::steps(&self.snapshots, &solved, |done| -> ControlFlow<()> {
-            meter.advance("snapshots", done);
-            interrupt.flow()
-        })
-    }
+fn early_step(solved: &Solved<'_>, stage: &Solution) -> Step {
+    let mesh = reconstruct(solved.surfaces, stage);
+    let shots = 1 + stage.reflected_shots();
+    let label = if shots == 1 { "1 shot".to_owned() } else { format!("{shots} shots") };
+    Step { label, model: Model::of_solution(&mesh, &stage.mesh) }
 }
 
 fn last_step(account: &Account<'_>) -> Step {
-    let Subject { mesh, solved } = account.subject;
-    let model = match solved {
-        Some(solved) => Model::of_solution(mesh, &solved.solution.mesh),
-        None => Model::of_mesh(mesh),
-    };
+    let model = Model::of_solution(account.mesh, &account.solved.solution.mesh);
     Step { label: format!("end: {}", account.summary.stop), model }
 }
 

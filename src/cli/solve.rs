@@ -7,7 +7,7 @@ use radiosity::export::{self, Stamp};
 use radiosity::render::{self, Solved, Subject};
 use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
-use radiosity::{load, reconstruct, solve, surfaces_of};
+use radiosity::{Scene, load, reconstruct, solve_in_stages, surfaces_of};
 
 use super::failure::Failure;
 use super::interrupt::Interrupt;
@@ -89,19 +89,15 @@ impl Solve {
             meter.tell("nothing will be written; -o FILE.glb, --image FILE.png and --html FILE.html do that");
         }
 
-        meter.begin("reading");
-        let scene = load(&self.scene.path, &self.scene.load_options())?;
-        let camera = self.picture.choose_camera(&scene.cameras)?;
-        for note in &scene.notes {
-            meter.tell(&format!("note: {note}"));
-        }
+        let (scene, camera) = self.read(&mut meter)?;
         meter.begin("surfaces");
         let surfaces = surfaces_of(&scene);
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
         if self.report.talk.verbose > 0 {
             meter.tell(&settings_record.to_string());
         }
-        let solution = solve(&surfaces, &settings, |progress| {
+        let stages = self.page.stages();
+        let (solution, stages) = solve_in_stages(&surfaces, &settings, &stages, |progress| {
             meter.follow(progress);
             interrupt.flow()
         })?;
@@ -124,7 +120,9 @@ impl Solve {
         let summary = Summary::new(&surfaces, &solution, &mesh);
         let account = Account {
             scene: &self.scene.path,
-            subject,
+            mesh: &mesh,
+            solved,
+            stages: &stages,
             camera: &camera,
             display: display(&mesh, exposure),
             summary: &summary,
@@ -140,6 +138,16 @@ impl Solve {
             written: self.written().cloned().collect(),
             notes: scene.notes,
         })
+    }
+
+    fn read(&self, meter: &mut Meter) -> Result<(Scene, CameraChoice), Failure> {
+        meter.begin("reading");
+        let scene = load(&self.scene.path, &self.scene.load_options())?;
+        let camera = self.picture.choose_camera(&scene.cameras)?;
+        for note in &scene.notes {
+            meter.tell(&format!("note: {note}"));
+        }
+        Ok((scene, camera))
     }
 
     /// Whether what is asked for can be written.

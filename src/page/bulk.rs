@@ -11,7 +11,7 @@ const PLACES: usize = 1000;
 const ERRORS_SHOWN: f64 = 0.95;
 
 /// The least end of a logarithmic scale of radiosity as a share of the upper end, and the greatest.
-const LOW_SHARES: [f64; 2] = [0.01, 0.1];
+const LOW_SHARES: [f64; 2] = [0.003, 0.1];
 
 /// Ends of a logarithmic scale of radiosity, W/m², that lamps and the darkest corners do not stretch.
 pub(super) fn radiosity_range(mesh: &TriMesh) -> [f64; 2] {

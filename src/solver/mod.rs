@@ -12,6 +12,7 @@ mod indirect_pass;
 mod progressive;
 pub mod relaxation;
 mod sources;
+mod stages;
 mod transport;
 mod work;
 
@@ -57,6 +58,13 @@ pub struct Solution {
     pub ambient: Rgb,
     /// How the exchange of reflected light converged, patch by patch.
     pub history: Vec<Step>,
+}
+
+impl Solution {
+    /// Shots of reflected light, those of emitters not counted.
+    pub fn reflected_shots(&self) -> usize {
+        self.history.last().map_or(0, |step| step.shots)
+    }
 }
 
 /// Why a solver stopped.
@@ -131,8 +139,25 @@ const ROUNDS: usize = 2;
 pub fn solve(
     surfaces: &Surfaces,
     settings: &Settings,
-    mut observe: impl FnMut(&Progress) -> ControlFlow<()>,
+    observe: impl FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<Solution> {
+    solve_in_stages(surfaces, settings, &[], observe).map(|(solution, _)| solution)
+}
+
+/// The same, and what the light was after each of these numbers of `shots` of reflected light, 0
+/// being what comes straight from emitters, with the light still unshot estimated as ambient.
+///
+/// All stages have the mesh that direct light has refined. Those that the exchange did not go beyond
+/// are left out; [`Solution::reflected_shots`] tells them apart.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_in_stages(
+    surfaces: &Surfaces,
+    settings: &Settings,
+    shots: &[usize],
+    mut observe: impl FnMut(&Progress) -> ControlFlow<()>,
+) -> Result<(Solution, Vec<Solution>)> {
     settings.validate()?;
     settings.validate_for(surfaces.area(), surfaces.extent)?;
     let mut observer = Observer { observe: &mut observe, flow: ControlFlow::Continue(()) };
@@ -147,6 +172,7 @@ pub fn solve(
 
     direct_pass::refine(world, settings, &mut mesh, &mut observer);
     direct_pass::light_leaves(world, &mut mesh);
+    let stages = stages::stages(world, settings, (&mesh, shots), &mut observer)?;
     let mut exchange = Exchange::new(world, settings, &mesh, &mut observer)?;
     let (gathered, gathering) = if exchange.stop == Stop::Converged {
         gather(world, settings, (&mut mesh, &mut exchange), &mut observer)
@@ -154,10 +180,8 @@ pub fn solve(
         exchange.spread(&mut mesh);
         (0, 0)
     };
-    let Exchange { light, energy, stop, shots, hemicubes, factors, ambient, history } = exchange;
-    let hemicubes = [hemicubes, gathered];
-    let work = Work { gathering, ..Work::new(world.light.lamps(), factors) };
-    Ok(Solution { mesh, light, energy, stop, shots, hemicubes, work, ambient, history })
+    let work = Work { gathering, ..Work::new(world.light.lamps(), exchange.factors) };
+    Ok((exchange.solution(mesh, gathered, work), stages))
 }
 
 /// Whether light dies away: loading a file sees to it, a scene made in code may not.
@@ -226,6 +250,13 @@ impl Exchange {
         };
         let Shooting { energy, shots, hemicubes, factors, .. } = shooting;
         Ok(Self { light, energy, stop, shots, hemicubes, factors, ambient, history })
+    }
+
+    /// The solution that this comes to, its light on the vertices of `mesh` by so many hemicubes.
+    fn solution(self, mesh: Mesh, gathered: usize, work: Work) -> Solution {
+        let Self { light, energy, stop, shots, hemicubes, ambient, history, .. } = self;
+        let hemicubes = [hemicubes, gathered];
+        Solution { mesh, light, energy, stop, shots, hemicubes, work, ambient, history }
     }
 
     /// What a gathering vertex sees.
