@@ -21,11 +21,12 @@
 
 mod base64;
 mod bulk;
-mod colour_maps;
+pub(crate) mod colour_maps;
 mod data;
 mod document;
 mod image;
 mod model;
+mod plot;
 mod quantise;
 mod table;
 mod viewer;
@@ -36,6 +37,7 @@ pub use document::{check_writable, document, save};
 pub use image::{columns, picture};
 pub use maud::{Markup, html};
 pub use model::Model;
+pub use plot::{Axis, Curve, Plot, Stroke, plot};
 pub use table::{Cell, Table, facts, table};
 pub use viewer::{Step, Viewer, viewer};
 pub use wipe::{WipePicture, wipe};
