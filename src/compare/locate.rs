@@ -79,6 +79,13 @@ impl<'a> Locator<'a> {
         Some(radiosity * texel / blend(&self.mesh.texture_mean).max(Rgb::splat(f64::MIN_POSITIVE)))
     }
 
+    /// Irradiance by reflected light, W/m², at the same place; `None` also in a mesh read from a file.
+    pub fn indirect(&self, place: DVec3, normal: DVec3) -> Option<Rgb> {
+        let Spot { triangle, weights, .. } = self.nearest(place, normal)?;
+        let corners = self.mesh.triangles[triangle].into_iter().zip(weights.to_array());
+        corners.map(|(v, w)| Some(self.mesh.irradiance.get(v as usize)?.indirect * w)).sum()
+    }
+
     fn nearest(&self, place: DVec3, normal: DVec3) -> Option<Spot> {
         let from = (place - self.centre).as_vec3a();
         let mut best: Option<Spot> = None;

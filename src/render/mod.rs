@@ -24,6 +24,7 @@ mod view;
 pub use automatic_camera::automatic_camera;
 pub use display::{Display, displayed};
 pub use picture::{Picture, RenderOptions, Subject, render, render_solved};
+pub use rays::close_up;
 pub use save::{check_writable, png, save};
 pub use shade::Solved;
 pub use view::View;

@@ -33,3 +33,15 @@ impl Rays {
         self.corner + x * self.right + y * self.down
     }
 }
+
+/// A camera at the same place that sees, `zoom` times as large, what is around a place of a picture of
+/// this `size`, pixels.
+pub fn close_up(camera: &Camera, size: [u32; 2], [x, y]: [f64; 2], zoom: f64) -> Camera {
+    let direction = Rays::new(camera, size[0], size[1]).direction(x, y);
+    let half = (camera.vertical_fov / 2.0).tan() / zoom;
+    Camera {
+        target: camera.eye + direction.normalize_or(DVec3::NEG_Z),
+        vertical_fov: 2.0 * half.atan(),
+        ..camera.clone()
+    }
+}
