@@ -44,7 +44,7 @@ pub(crate) struct Compare {
     reference: PathBuf,
 
     /// Most time for an automatic reference: 120s, 2min
-    #[arg(long, value_name = "TIME", default_value = "60s", value_parser = values::duration)]
+    #[arg(long, value_name = "TIME", default_value = "120s", value_parser = values::duration)]
     #[arg(help_heading = "Comparison")]
     budget: Duration,
 

@@ -8,7 +8,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::estimate::{Effort, Estimate};
+use super::estimate::{Effort, Estimate, ROUNDS};
 use super::sampler::{Sampler, Site};
 use super::scatter::{Near, REACH, area_sites, shadow_sites};
 use crate::colour::Rgb;
@@ -21,8 +21,13 @@ const BURIED: f64 = 0.6;
 /// Paths that look whether a place is inside a solid.
 const LOOKS: u32 = 256;
 
+/// What is said of a scene in which there is nothing to compare.
+const NOTHING: &str =
+    "no surface reflects light without emitting some: there is nothing to compare";
+
 /// Which of the two sets a place belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Set {
     /// All over the surfaces: the weighted mean is a mean over area.
     Area,
@@ -49,6 +54,7 @@ pub struct Point {
 
 /// Where a reference comes from.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Origin {
     /// Direct light exactly, the rest by paths.
     Traced {
@@ -96,8 +102,8 @@ impl Reference {
         let start = Instant::now();
         let sampler = Sampler::new(surfaces);
         let (sites, weights) = places(&sampler, effort);
-        let mut estimate = Estimate::new(&sampler, &sites);
-        estimate.run((&sampler, &sites), effort, observe);
+        let mut estimate = Estimate::new(&sampler, &sites, effort.seed);
+        estimate.run(effort, observe);
         let points: Vec<Point> = (0..sites.len())
             .filter(|&k| !estimate.is_dark(k))
             .map(|k| {
@@ -107,10 +113,10 @@ impl Reference {
                 Point { place, normal, radiosity, error, set, weight }
             })
             .collect();
-        let (rounds, seconds) = (estimate.rounds, start.elapsed().as_secs_f64());
-        let paths = rounds * effort.paths as usize;
+        let (rounds, seconds) = (ROUNDS, start.elapsed().as_secs_f64());
+        let paths = rounds * estimate.paths as usize;
         Self::new(points, Origin::Traced { rounds, paths, seconds }, surfaces.extent)
-            .ok_or_else(|| Error::Scene("nothing in the scene reflects light".to_owned()))
+            .ok_or_else(|| Error::Scene(NOTHING.to_owned()))
     }
 
     /// A reference of these points in a scene of this extent, m; `None` without a lit place in the area set.
@@ -131,14 +137,6 @@ impl Reference {
         let square: f64 = chosen().map(|p| p.weight * p.error.length_squared() / 3.0).sum();
         let light: f64 = chosen().map(|p| p.weight * p.radiosity.element_sum() / 3.0).sum();
         if light > 0.0 { (square / weight).sqrt() / (light / weight) } else { 0.0 }
-    }
-}
-
-impl Estimate {
-    /// True inside something closed and without light.
-    fn is_dark(&self, number: usize) -> bool {
-        let [radiosity, _] = self.radiosity(number);
-        radiosity == Rgb::ZERO && self.sums[number].escaped == 0.0
     }
 }
 

@@ -10,6 +10,7 @@ use crate::reconstruct::TriMesh;
 
 /// Which places an error is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Band {
     /// The area set: all surfaces.
     All,
