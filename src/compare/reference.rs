@@ -13,7 +13,8 @@ use super::sampler::{Sampler, Site};
 use super::scatter::{Near, REACH, area_sites, shadow_sites};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
-use crate::surface::Surfaces;
+use crate::surface::polygon::contains;
+use crate::surface::{Surface, Surfaces};
 
 /// A place sees the inside of a solid if more than this share of what it sees is the backs of surfaces.
 const BURIED: f64 = 0.6;
@@ -72,7 +73,7 @@ pub enum Origin {
 /// Radiosity at fixed places, independent of any mesh.
 ///
 /// Left out are places on emitters and on black surfaces, and those inside solids: where more than 60 % of
-/// what is seen are backs of surfaces, or all is dark and closed.
+/// what is seen are backs of surfaces, another surface lies on top, or all is dark and closed.
 #[derive(Clone, Debug)]
 pub struct Reference {
     /// The places, those of the area set first.
@@ -146,8 +147,27 @@ fn places(sampler: &Sampler<'_>, effort: &Effort) -> (Vec<Site>, Vec<(Set, f64)>
     let shadow = shadow_sites(sampler, effort.shadow_points, effort.seed).into_iter();
     let area = area.map(|placed| (placed.site, (Set::Area, placed.area)));
     let all: Vec<_> = area.chain(shadow.map(|site| (site, (Set::Shadow, 1.0)))).collect();
-    let open = all.into_par_iter().filter(|(site, _)| sampler.backs(site, LOOKS) <= BURIED);
-    open.unzip()
+    let is_open =
+        |site: &Site| !is_covered(sampler.surfaces, site) && sampler.backs(site, LOOKS) <= BURIED;
+    all.into_par_iter().filter(|(site, _)| is_open(site)).unzip()
+}
+
+/// True where another surface lies face to face on a site's own, as the bottom of a box that stands on a floor.
+fn is_covered(surfaces: &Surfaces, site: &Site) -> bool {
+    let own = &surfaces.list[site.surface];
+    // The other side of a double-sided polygon is in the same place, back to back.
+    let is_partner = |number: usize, other: &Surface| {
+        own.two_sided
+            && other.two_sided
+            && own.is_back != other.is_back
+            && number == if own.is_back { site.surface - 1 } else { site.surface + 1 }
+    };
+    surfaces.list.iter().enumerate().any(|(number, other)| {
+        other.plane.normal.dot(site.normal) < -0.999
+            && other.plane.height(site.place).abs() <= 5.0 * surfaces.tolerance
+            && !is_partner(number, other)
+            && contains(&other.rings, other.plane.flatten(site.place))
+    })
 }
 
 /// Which points are of the shadow set or, facing the same way, near one that is.
