@@ -44,7 +44,7 @@ pub(crate) struct Compare {
     reference: PathBuf,
 
     /// Most time for an automatic reference: 120s, 2min
-    #[arg(long, value_name = "TIME", default_value = "60s", value_parser = values::duration)]
+    #[arg(long, value_name = "TIME", default_value = "120s", value_parser = values::duration)]
     #[arg(help_heading = "Comparison")]
     budget: Duration,
 
@@ -54,6 +54,11 @@ pub(crate) struct Compare {
     #[arg(long, value_name = "SHARE", default_value = "0.2%", value_parser = values::share)]
     #[arg(help_heading = "Comparison")]
     noise: f64,
+
+    /// Places of an automatic reference on all surfaces; half as many more along the edges of shadows
+    #[arg(long, value_name = "N", default_value_t = 2000, help_heading = "Comparison")]
+    #[arg(value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
+    places: u32,
 
     /// Compare costs at this error, as a share of the mean (default: the smallest that both reach)
     #[arg(long, value_name = "SHARE", value_parser = values::share, help_heading = "Comparison")]
@@ -109,7 +114,13 @@ impl Compare {
     }
 
     fn plan(&self) -> Plan {
-        let effort = Effort { budget: self.budget, noise: self.noise, ..Effort::default() };
+        let effort = Effort {
+            area_points: self.places as usize,
+            shadow_points: self.places as usize / 2,
+            budget: self.budget,
+            noise: self.noise,
+            ..Effort::default()
+        };
         let reference = if self.reference == Path::new("auto") {
             Source::Traced(effort)
         } else {

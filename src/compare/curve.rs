@@ -11,6 +11,7 @@ pub struct Curve {
 
 /// What an error costs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Needed {
     /// So much, between two runs.
     About(f64),

@@ -1,13 +1,22 @@
-//! Radiosity at places, in rounds, with the standard error that the rounds' spread shows.
+//! Radiosity at places, with the standard error that the spread of independent rounds shows.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use fastrand::Rng;
 use rayon::prelude::*;
 
-use super::sampler::{Sampler, Site};
+use super::dice::mixed;
+use super::sampler::{Found, Sampler, Site};
 use crate::colour::Rgb;
+
+/// Independent rounds; their spread tells the error.
+pub(super) const ROUNDS: usize = 16;
+
+/// Paths that all rounds are lengthened by at a time, at first and at most.
+const PATHS: [u32; 2] = [16, 64];
+
+/// Paths a round beyond which the even sequence ends.
+const MOST_PATHS: u32 = 1 << 16;
 
 /// How much to spend on truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,13 +25,9 @@ pub struct Effort {
     pub area_points: usize,
     /// Places where shadow falls steeply, at most.
     pub shadow_points: usize,
-    /// Paths from each place a round.
-    pub paths: u32,
-    /// Fewest rounds; their spread tells the error.
-    pub rounds: usize,
     /// Good enough: root mean square of the standard errors, as a share of the mean radiosity.
     pub noise: f64,
-    /// After this no round begins, once there are two.
+    /// After this, no path begins but the first few.
     pub budget: Duration,
     /// Which random numbers.
     pub seed: u64,
@@ -30,120 +35,159 @@ pub struct Effort {
 
 impl Default for Effort {
     fn default() -> Self {
-        Self {
-            area_points: 2000,
-            shadow_points: 1000,
-            paths: 64,
-            rounds: 16,
-            noise: 0.002,
-            budget: Duration::from_secs(60),
-            seed: 1,
-        }
+        let budget = Duration::from_secs(120);
+        Self { area_points: 2000, shadow_points: 1000, noise: 0.002, budget, seed: 1 }
     }
 }
 
-/// Sums over the rounds at one place.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Sums {
+/// What is known of one place.
+#[derive(Clone, Copy, Debug)]
+struct Sums {
     direct: Rgb,
     reflectance: Rgb,
-    sum: Rgb,
-    squares: Rgb,
-    pub(super) escaped: f64,
+    rounds: [Rgb; ROUNDS],
+    escaped: u32,
 }
 
-/// Places whose light becomes known better round by round.
+/// Places whose light becomes known better and better.
 #[derive(Debug)]
-pub(super) struct Estimate {
-    pub(super) sums: Vec<Sums>,
-    pub(super) rounds: usize,
+pub(super) struct Estimate<'a> {
+    sampler: &'a Sampler<'a>,
+    sites: &'a [Site],
+    sums: Vec<Sums>,
+    seed: u64,
+    /// Paths of each round so far.
+    pub(super) paths: u32,
 }
 
-impl Estimate {
-    pub(super) fn new(sampler: &Sampler<'_>, sites: &[Site]) -> Self {
+impl<'a> Estimate<'a> {
+    pub(super) fn new(sampler: &'a Sampler<'a>, sites: &'a [Site], seed: u64) -> Self {
         let start = |site: &Site| Sums {
             direct: sampler.direct(site).irradiance,
             reflectance: sampler.reflectance(site),
-            ..Sums::default()
+            rounds: [Rgb::ZERO; ROUNDS],
+            escaped: 0,
         };
-        Self { sums: sites.par_iter().map(start).collect(), rounds: 0 }
+        let sums = sites.par_iter().map(start).collect();
+        Self { sampler, sites, sums, seed, paths: 0 }
     }
 
-    /// Adds rounds until `effort` is spent, the noise is small or `observe`, told of the share done, breaks
-    /// off; and at least two in any case.
-    pub(super) fn run(
-        &mut self,
-        (sampler, sites): (&Sampler<'_>, &[Site]),
-        effort: &Effort,
-        observe: &mut dyn FnMut(f64) -> ControlFlow<()>,
-    ) {
+    /// Lengthens the rounds until `effort` is spent, the noise is small or `observe`, told of the share done,
+    /// breaks off; but once in any case.
+    pub(super) fn run(&mut self, effort: &Effort, observe: &mut dyn FnMut(f64) -> ControlFlow<()>) {
         let start = Instant::now();
-        loop {
-            let spent = start.elapsed();
-            let noise = self.noise();
-            let done =
-                (self.rounds >= effort.rounds && noise <= effort.noise) || spent >= effort.budget;
-            // Errors fall as one over the square root of the rounds.
-            let by_noise = if noise > 0.0 { (effort.noise / noise).powi(2) } else { 1.0 };
-            let by_rounds = self.rounds as f64 / effort.rounds.max(1) as f64;
+        while self.paths < MOST_PATHS {
+            let more = self.paths.clamp(PATHS[0], PATHS[1]);
+            self.lengthen(more);
+            let (spent, noise) = (start.elapsed(), self.noise());
+            // Errors fall as one over the square root of the number of paths.
+            let by_noise = (effort.noise / noise.max(f64::MIN_POSITIVE)).powi(2);
             let by_time = spent.as_secs_f64() / effort.budget.as_secs_f64().max(1e-9);
-            let share = by_rounds.min(by_noise).max(by_time).min(1.0);
-            if observe(share).is_break() || (done && self.rounds >= 2) {
-                if self.rounds >= 2 {
-                    return;
-                }
+            let done = by_noise.max(by_time);
+            if observe(done.min(1.0)).is_break() || done >= 1.0 {
+                return;
             }
-            self.round((sampler, sites), effort);
         }
     }
 
-    /// One round more.
-    pub(super) fn round(&mut self, (sampler, sites): (&Sampler<'_>, &[Site]), effort: &Effort) {
-        let round = self.rounds as u64;
-        self.sums.par_iter_mut().zip(sites).enumerate().for_each(|(number, (sums, site))| {
-            let mut random = Rng::with_seed(mixed(&[effort.seed, round, number as u64]));
-            let found = sampler.indirect(site, effort.paths, &mut random);
-            sums.sum += found.indirect;
-            sums.squares += found.indirect * found.indirect;
-            sums.escaped += found.escaped;
+    /// As many paths more in each round.
+    pub(super) fn lengthen(&mut self, paths: u32) {
+        let (sampler, seed) = (self.sampler, self.seed);
+        let range = self.paths..self.paths + paths;
+        self.sums.par_iter_mut().zip(self.sites).enumerate().for_each(|(number, (sums, site))| {
+            for (round, sum) in sums.rounds.iter_mut().enumerate() {
+                let seed = mixed(&[seed, round as u64, number as u64]);
+                let Found { indirect, escaped } = sampler.indirect(site, range.clone(), seed);
+                *sum += indirect;
+                sums.escaped += escaped;
+            }
         });
-        self.rounds += 1;
+        self.paths += paths;
     }
 
     /// Radiosity by reflection at a place, and its standard error, W/m².
     pub(super) fn radiosity(&self, number: usize) -> [Rgb; 2] {
-        let (sums, rounds) = (&self.sums[number], self.rounds as f64);
-        let mean = sums.sum / rounds;
-        let variance =
-            (sums.squares / rounds - mean * mean).max(Rgb::ZERO) / (rounds - 1.0).max(1.0);
-        let error = variance.to_array().map(f64::sqrt);
-        [sums.reflectance * (sums.direct + mean), sums.reflectance * Rgb::from(error)]
+        let (sums, count) = (&self.sums[number], ROUNDS as f64);
+        let means = sums.rounds.map(|sum| sum / f64::from(self.paths));
+        let mean = means.iter().sum::<Rgb>() / count;
+        let squares: Rgb = means.iter().map(|&round| (round - mean) * (round - mean)).sum();
+        let error = (squares / (count * (count - 1.0))).to_array().map(f64::sqrt);
+        // Chance may bring a dark place below zero.
+        let arriving = (sums.direct + mean).max(Rgb::ZERO);
+        [sums.reflectance * arriving, sums.reflectance * Rgb::from(error)]
     }
 
-    /// Root mean square of the standard errors over the mean radiosity; infinite before there are two rounds.
+    /// True inside something closed and without light.
+    pub(super) fn is_dark(&self, number: usize) -> bool {
+        let [radiosity, _] = self.radiosity(number);
+        radiosity == Rgb::ZERO && self.sums[number].escaped == 0
+    }
+
+    /// Root mean square of the standard errors over the mean radiosity.
     fn noise(&self) -> f64 {
-        if self.rounds < 2 || self.sums.is_empty() {
-            return f64::INFINITY;
-        }
-        let count = self.sums.len() as f64;
-        let (light, square) = (0..self.sums.len()).map(|k| self.radiosity(k)).fold(
-            (0.0, 0.0),
-            |(light, square), [radiosity, error]| {
-                (light + radiosity.element_sum() / 3.0, square + error.length_squared() / 3.0)
-            },
-        );
+        let found = (0..self.sums.len()).map(|number| self.radiosity(number));
+        let (light, square) = found.fold((0.0, 0.0), |(light, square), [radiosity, error]| {
+            (light + radiosity.element_sum(), square + error.length_squared())
+        });
+        let count = 3.0 * self.sums.len().max(1) as f64;
         if light > 0.0 { (square / count).sqrt() / (light / count) } else { 0.0 }
     }
 }
 
-/// A seed from numbers, by the finalizer of `SplitMix64` ([Steele, Lea and Flood 2014]).
-///
-/// [Steele, Lea and Flood 2014]: https://doi.org/10.1145/2660193.2660195
-pub(super) fn mixed(numbers: &[u64]) -> u64 {
-    numbers.iter().fold(0, |seed, &number| {
-        let z = (seed ^ number).wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    })
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::scatter::area_sites;
+    use crate::scene::load;
+    use crate::surface::{Surfaces, surfaces_of};
+
+    fn shipped(name: &str) -> Surfaces {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name);
+        surfaces_of(&load(&path, &Default::default()).unwrap())
+    }
+
+    #[test]
+    fn in_a_furnace_all_is_alike() {
+        let surfaces = shipped("furnace.obj");
+        let sampler = Sampler::new(&surfaces);
+        let wall = |surface: usize, place: glam::DVec2| {
+            let plane = surfaces.list[surface].plane;
+            Site { surface, place: plane.lift(place), normal: plane.normal }
+        };
+        let inside = |surface: usize| {
+            let ring = &surfaces.list[surface].rings[0];
+            let middle = crate::surface::polygon::centroid(ring);
+            [0.0, 0.5, 0.97].map(|share| wall(surface, middle.lerp(ring[0], share)))
+        };
+        let sites: Vec<Site> = (0..6).flat_map(inside).collect();
+        let mut estimate = Estimate::new(&sampler, &sites, 1);
+        estimate.lengthen(64);
+        for number in 0..sites.len() {
+            // B = E / (1 - ρ) = 2, of which 1 is emitted.
+            let [radiosity, error] = estimate.radiosity(number);
+            assert!((radiosity.x - 1.0).abs() <= 5.0 * error.x + 1e-6, "{radiosity} ± {error}");
+            assert!(error.x < 0.02, "{error}");
+        }
+    }
+
+    #[test]
+    fn two_seeds_differ_as_their_errors_say() {
+        let surfaces = shipped("cornell-box.obj");
+        let sampler = Sampler::new(&surfaces);
+        let sites: Vec<Site> =
+            area_sites(&surfaces, 300, 1).into_iter().map(|placed| placed.site).collect();
+        let found = [1, 2].map(|seed| {
+            let mut estimate = Estimate::new(&sampler, &sites, seed);
+            estimate.lengthen(32);
+            estimate
+        });
+        let (mut squares, mut expected) = (0.0, 0.0);
+        for number in 0..sites.len() {
+            let [[one, e], [other, f]] = found.each_ref().map(|found| found.radiosity(number));
+            squares += (one - other).length_squared();
+            expected += e.length_squared() + f.length_squared();
+        }
+        let ratio = squares / expected;
+        assert!((0.85..1.18).contains(&ratio), "{ratio}");
+    }
 }

@@ -10,6 +10,7 @@
 mod arrays;
 mod comparison;
 mod curve;
+mod dice;
 mod estimate;
 mod locate;
 mod memory;

@@ -115,9 +115,9 @@ impl Plan {
         if !self.error.is_none_or(|error| error > 0.0 && error.is_finite()) {
             return Err(setting("error", "the error to compare at must be above zero"));
         }
-        if let Source::Traced(Effort { noise, paths, area_points, .. }) = self.reference {
-            if !(noise > 0.0 && paths > 0 && area_points > 0) {
-                return Err(setting("noise", "noise, paths and points must be above zero"));
+        if let Source::Traced(Effort { noise, area_points, .. }) = self.reference {
+            if !(noise > 0.0 && area_points > 0) {
+                return Err(setting("noise", "noise and number of places must be above zero"));
             }
         }
         self.all_settings().try_for_each(|settings| settings.validate())

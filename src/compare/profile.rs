@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::estimate::{Effort, Estimate};
+use super::estimate::{Estimate, ROUNDS};
 use super::locate::Locator;
 use super::reference::{Reference, Set};
 use super::run::Lit;
@@ -27,6 +27,9 @@ const FARTHEST: usize = 150;
 
 /// Surfaces below this share of the largest one's area have no profile.
 const LARGE: f64 = 0.05;
+
+/// Other random numbers than the reference's by default.
+const PROFILE_SEED: u64 = 2;
 
 /// The gradient may change by this factor when its step is halved; where it changes more, light jumps.
 const SMOOTH: f64 = 1.5;
@@ -83,9 +86,8 @@ impl Profile {
             Site { place, ..edge.site }
         };
         let sites: Vec<Site> = at.iter().map(site).collect();
-        let effort = Effort { paths: (paths / 16).max(1) as u32, ..Effort::default() };
-        let mut estimate = Estimate::new(&sampler, &sites);
-        (0..effort.rounds).for_each(|_| estimate.round((&sampler, &sites), &effort));
+        let mut estimate = Estimate::new(&sampler, &sites, PROFILE_SEED);
+        estimate.lengthen((paths / ROUNDS).max(1) as u32);
         let found: Vec<[f64; 2]> =
             (0..PLACES).map(|k| estimate.radiosity(k).map(luminance)).collect();
         Some(Self {

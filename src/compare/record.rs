@@ -163,6 +163,7 @@ fn errors(band: Band, errors: &Errors) -> Vec<Cell> {
     };
     let values = [
         ("rmse", errors.rmse),
+        ("rmse_error", errors.rmse_error),
         ("raw_rmse", errors.raw_rmse),
         ("mean_absolute", errors.mean_absolute),
         ("bias", errors.bias),

@@ -8,12 +8,13 @@ use glam::DVec3;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::estimate::{Effort, Estimate};
+use super::estimate::{Effort, Estimate, ROUNDS};
 use super::sampler::{Sampler, Site};
 use super::scatter::{Near, REACH, area_sites, shadow_sites};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
-use crate::surface::Surfaces;
+use crate::surface::polygon::contains;
+use crate::surface::{Surface, Surfaces};
 
 /// A place sees the inside of a solid if more than this share of what it sees is the backs of surfaces.
 const BURIED: f64 = 0.6;
@@ -21,8 +22,13 @@ const BURIED: f64 = 0.6;
 /// Paths that look whether a place is inside a solid.
 const LOOKS: u32 = 256;
 
+/// What is said of a scene in which there is nothing to compare.
+const NOTHING: &str =
+    "no surface reflects light without emitting some: there is nothing to compare";
+
 /// Which of the two sets a place belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Set {
     /// All over the surfaces: the weighted mean is a mean over area.
     Area,
@@ -49,6 +55,7 @@ pub struct Point {
 
 /// Where a reference comes from.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Origin {
     /// Direct light exactly, the rest by paths.
     Traced {
@@ -66,7 +73,7 @@ pub enum Origin {
 /// Radiosity at fixed places, independent of any mesh.
 ///
 /// Left out are places on emitters and on black surfaces, and those inside solids: where more than 60 % of
-/// what is seen are backs of surfaces, or all is dark and closed.
+/// what is seen are backs of surfaces, another surface lies on top, or all is dark and closed.
 #[derive(Clone, Debug)]
 pub struct Reference {
     /// The places, those of the area set first.
@@ -96,8 +103,8 @@ impl Reference {
         let start = Instant::now();
         let sampler = Sampler::new(surfaces);
         let (sites, weights) = places(&sampler, effort);
-        let mut estimate = Estimate::new(&sampler, &sites);
-        estimate.run((&sampler, &sites), effort, observe);
+        let mut estimate = Estimate::new(&sampler, &sites, effort.seed);
+        estimate.run(effort, observe);
         let points: Vec<Point> = (0..sites.len())
             .filter(|&k| !estimate.is_dark(k))
             .map(|k| {
@@ -107,10 +114,10 @@ impl Reference {
                 Point { place, normal, radiosity, error, set, weight }
             })
             .collect();
-        let (rounds, seconds) = (estimate.rounds, start.elapsed().as_secs_f64());
-        let paths = rounds * effort.paths as usize;
+        let (rounds, seconds) = (ROUNDS, start.elapsed().as_secs_f64());
+        let paths = rounds * estimate.paths as usize;
         Self::new(points, Origin::Traced { rounds, paths, seconds }, surfaces.extent)
-            .ok_or_else(|| Error::Scene("nothing in the scene reflects light".to_owned()))
+            .ok_or_else(|| Error::Scene(NOTHING.to_owned()))
     }
 
     /// A reference of these points in a scene of this extent, m; `None` without a lit place in the area set.
@@ -134,22 +141,33 @@ impl Reference {
     }
 }
 
-impl Estimate {
-    /// True inside something closed and without light.
-    fn is_dark(&self, number: usize) -> bool {
-        let [radiosity, _] = self.radiosity(number);
-        radiosity == Rgb::ZERO && self.sums[number].escaped == 0.0
-    }
-}
-
 /// The places of both sets that are not inside solids, with their sets and weights.
 fn places(sampler: &Sampler<'_>, effort: &Effort) -> (Vec<Site>, Vec<(Set, f64)>) {
     let area = area_sites(sampler.surfaces, effort.area_points, effort.seed).into_iter();
     let shadow = shadow_sites(sampler, effort.shadow_points, effort.seed).into_iter();
     let area = area.map(|placed| (placed.site, (Set::Area, placed.area)));
     let all: Vec<_> = area.chain(shadow.map(|site| (site, (Set::Shadow, 1.0)))).collect();
-    let open = all.into_par_iter().filter(|(site, _)| sampler.backs(site, LOOKS) <= BURIED);
-    open.unzip()
+    let is_open =
+        |site: &Site| !is_covered(sampler.surfaces, site) && sampler.backs(site, LOOKS) <= BURIED;
+    all.into_par_iter().filter(|(site, _)| is_open(site)).unzip()
+}
+
+/// True where another surface lies face to face on a site's own, as the bottom of a box that stands on a floor.
+fn is_covered(surfaces: &Surfaces, site: &Site) -> bool {
+    let own = &surfaces.list[site.surface];
+    // The other side of a double-sided polygon is in the same place, back to back.
+    let is_partner = |number: usize, other: &Surface| {
+        own.two_sided
+            && other.two_sided
+            && own.is_back != other.is_back
+            && number == if own.is_back { site.surface - 1 } else { site.surface + 1 }
+    };
+    surfaces.list.iter().enumerate().any(|(number, other)| {
+        other.plane.normal.dot(site.normal) < -0.999
+            && other.plane.height(site.place).abs() <= 5.0 * surfaces.tolerance
+            && !is_partner(number, other)
+            && contains(&other.rings, other.plane.flatten(site.place))
+    })
 }
 
 /// Which points are of the shadow set or, facing the same way, near one that is.

@@ -17,6 +17,7 @@ use crate::surface::Surfaces;
 
 /// How a mesh is divided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Family {
     /// Every element at most so long.
     Uniform,

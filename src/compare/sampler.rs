@@ -1,10 +1,11 @@
 //! Reflected light at a point, by paths: no mesh, no noise that is not told.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
-use fastrand::Rng;
 use glam::{DMat3, DVec2, DVec3};
 
+use super::dice::Dice;
 use crate::colour::Rgb;
 use crate::direct::Lamps;
 use crate::mesh::{Direct, Mesh};
@@ -34,10 +35,10 @@ pub struct Site {
 /// What paths from a place have found.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Found {
-    /// Irradiance by reflected light, W/m².
+    /// Sum of irradiances by reflected light, W/m².
     pub(super) indirect: Rgb,
-    /// Share of the paths that met nothing at all.
-    pub(super) escaped: f64,
+    /// Paths that met nothing at all.
+    pub(super) escaped: u32,
 }
 
 /// Light of a scene anywhere: straight from emitters exactly, the rest by paths.
@@ -66,18 +67,17 @@ impl<'a> Sampler<'a> {
         surface.reflectance * texel(self.surfaces, surface, site.place)
     }
 
-    /// Light that arrives by reflection, by `paths` paths whose first directions fill the hemisphere evenly.
-    pub(super) fn indirect(&self, site: &Site, paths: u32, random: &mut Rng) -> Found {
+    /// Sum over paths of the light that arrives by reflection, W/m² each; their first directions fill the
+    /// hemisphere evenly, the second ones and places on lamps too.
+    pub(super) fn indirect(&self, site: &Site, paths: Range<u32>, seed: u64) -> Found {
         let frame = frame(site.normal);
-        let shift = DVec2::new(random.f64(), random.f64());
         let mut found = Found::default();
-        let share = 1.0 / f64::from(paths);
-        for path in 0..paths {
-            let direction = frame * cosine_weighted((shift + R2 * f64::from(path)).fract());
-            match self.meet(site.place, direction) {
-                None => found.escaped += share,
+        for path in paths {
+            let mut dice = Dice::new(seed, path);
+            match self.meet(site.place, frame * cosine_weighted(dice.pair())) {
+                None => found.escaped += 1,
                 Some((_, false)) => (),
-                Some((met, true)) => found.indirect += self.path(met, random) * share,
+                Some((met, true)) => found.indirect += self.path(met, dice),
             }
         }
         found
@@ -105,28 +105,29 @@ impl<'a> Sampler<'a> {
 
     /// Radiosity by reflection at a place and along one path from it, W/m²; emission is not part of it.
     ///
-    /// B = ρ (direct + B') with B' that of the place which the path meets next, and so on; it goes on with
-    /// a probability that falls with what it still carries, and then carries that much more.
-    fn path(&self, start: Site, random: &mut Rng) -> Rgb {
+    /// B = ρ (direct + B') with B' that of the place which the path meets next, and so on; from the second place
+    /// on it goes on with a probability that falls with what it still carries, and then carries that much more.
+    fn path(&self, start: Site, mut dice: Dice) -> Rgb {
         let (mut carried, mut light) = (Rgb::ONE, Rgb::ZERO);
         let mut site = start;
-        loop {
+        for bounce in 0.. {
             carried *= self.reflectance(&site);
-            let survival = carried.max_element().min(SURVIVAL);
-            if survival <= 0.0 {
-                return light;
+            let survival = if bounce == 0 { 1.0 } else { carried.max_element().min(SURVIVAL) };
+            if carried == Rgb::ZERO {
+                break;
             }
-            light += carried * self.direct(&site).irradiance;
-            if random.f64() >= survival {
-                return light;
+            let place = (site.place, site.normal);
+            light += carried * self.lamps.glimpse(&self.occluders, place, || dice.number());
+            if survival < 1.0 && dice.coin() >= survival {
+                break;
             }
             carried /= survival;
-            let square = DVec2::new(random.f64(), random.f64());
-            match self.meet(site.place, frame(site.normal) * cosine_weighted(square)) {
+            match self.meet(site.place, frame(site.normal) * cosine_weighted(dice.pair())) {
                 Some((next, true)) => site = next,
-                _ => return light,
+                _ => break,
             }
         }
+        light
     }
 }
 

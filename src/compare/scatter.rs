@@ -6,7 +6,7 @@ use fastrand::Rng;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::estimate::mixed;
+use super::dice::mixed;
 use super::sampler::{R2, Sampler, Site};
 use crate::surface::Surfaces;
 use crate::surface::cut::{Cuts, convex_pieces};

@@ -10,6 +10,7 @@ use crate::reconstruct::TriMesh;
 
 /// Which places an error is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Band {
     /// The area set: all surfaces.
     All,
@@ -42,6 +43,8 @@ pub struct Errors {
     pub mean: f64,
     /// Root mean square, the reference's own variance taken off.
     pub rmse: f64,
+    /// Standard error of that by the choice of the places: other ones would give another.
+    pub rmse_error: f64,
     /// Root mean square as measured, the reference's error included.
     pub raw_rmse: f64,
     /// Mean of the magnitudes (L1).
@@ -128,13 +131,18 @@ fn errors(points: &[(&Point, Rgb)]) -> Errors {
         2.0 * (point.weight / total * grey(point.error * point.error)).powi(2)
     };
     let luck = points.iter().map(luck).sum::<f64>().sqrt();
+    let chance =
+        |(point, d): &(&Point, Rgb)| (point.weight / total * (grey(*d * *d) - square)).powi(2);
+    let chance = points.iter().map(chance).sum::<f64>().sqrt();
+    let rmse = (square - variance).max(0.0).sqrt() / mean;
     let mut sizes: Vec<(f64, f64)> =
         points.iter().map(|(point, d)| (grey(d.abs()) / mean, point.weight / total)).collect();
     sizes.sort_by(|a, b| a.0.total_cmp(&b.0));
     Errors {
         points: points.len(),
         mean,
-        rmse: (square - variance).max(0.0).sqrt() / mean,
+        rmse,
+        rmse_error: spread_of_root(rmse, chance / (mean * mean)),
         raw_rmse: square.sqrt() / mean,
         mean_absolute: mean_of(&|_, d| grey(d.abs())) / mean,
         bias: mean_of(&|_, d| grey(d)) / mean,
@@ -144,6 +152,11 @@ fn errors(points: &[(&Point, Rgb)]) -> Errors {
         noise: variance.sqrt() / mean,
         floor: (2.0 * luck).sqrt() / mean,
     }
+}
+
+/// Standard error of a root whose square has this one: δx = δ(x²) / 2x, but no more than the root of δ(x²).
+fn spread_of_root(root: f64, spread: f64) -> f64 {
+    if spread >= 4.0 * root * root { spread.sqrt() } else { spread / (2.0 * root) }
 }
 
 /// Mean of the channels.

@@ -11,6 +11,7 @@ pub const TIE: f64 = 1.1;
 
 /// What a run costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Cost {
     /// Leaves.
     Elements,
@@ -76,6 +77,7 @@ pub struct AtEqualCost {
 
 /// Who is ahead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Winner {
     /// One of the two, by more than a tenth.
     One(Family),

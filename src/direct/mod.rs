@@ -2,6 +2,7 @@
 //!
 //! It carries the hard edges, so it is never carried by the hemicube.
 
+mod glimpse;
 mod lines;
 mod outlook;
 mod punctual;

@@ -1,5 +1,6 @@
 //! The command: what it writes, says and returns.
 
+mod compare;
 mod config;
 mod form_factors;
 #[cfg(unix)]

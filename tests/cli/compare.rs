@@ -1,0 +1,82 @@
+//! Comparisons by the command.
+
+use crate::{Place, scene};
+
+/// A comparison that is a matter of a moment, with a reference good enough after the first few paths.
+const QUICK: [&str; 12] = [
+    "--adaptive",
+    "50%,20%",
+    "--uniform",
+    "0.2,0.1",
+    "--noise",
+    "50%",
+    "--quality",
+    "draft",
+    "--hemicube-resolution",
+    "32",
+    "--stop",
+    "5%",
+];
+
+/// The columns that are the same on all machines.
+fn lasting(table: &str) -> Vec<String> {
+    let first = table.lines().next().expect("a header");
+    let count = first.split(',').position(|name| name == "seconds").expect("seconds come last");
+    let cut = |line: &str| line.split(',').take(count).collect::<Vec<_>>().join(",");
+    table.lines().map(cut).collect()
+}
+
+#[test]
+fn a_comparison_says_who_wins_whatever_the_threads() {
+    let place = Place::new();
+    let scene = scene("cornell-box.obj");
+    let run = |threads: &str, csv: &str| {
+        let fixed = ["compare", &scene, "--threads", threads, "--csv", csv, "--json", "a.json"];
+        let outcome = place.run(&[&fixed[..], &QUICK].concat()).done();
+        (outcome.stdout, std::fs::read_to_string(place.path(csv)).expect("a table is written"))
+    };
+    let (told, one) = run("1", "one.csv");
+    let (_, two) = run("2", "two.csv");
+    assert_eq!(lasting(&one), lasting(&two));
+    assert_eq!(one.lines().count(), 5, "{one}");
+    for words in
+        ["uniform 0.2", "adaptive 0.5", "noise", "elements the error is", "in theory", "written"]
+    {
+        assert!(told.contains(words), "{words} is not in {told}");
+    }
+    let json = std::fs::read_to_string(place.path("a.json")).expect("all figures are written");
+    let json: serde_json::Value = serde_json::from_str(&json).expect("they are JSON");
+    assert_eq!(json["runs"].as_array().map(Vec::len), Some(4));
+    assert_eq!(json["runs"][0]["family"], "uniform");
+    assert!(json["runs"][3]["score"]["all"]["rmse"].as_f64() < Some(0.2), "{json}");
+    assert!(json["profile"][0]["reference"].as_array().map(Vec::len) > Some(60));
+    let sentence = json["sentences"][0].as_str().expect("a sentence");
+    assert!(told.contains(sentence), "{sentence} is not in {told}");
+}
+
+#[test]
+fn a_reference_is_used_again() {
+    let place = Place::new();
+    let scene = scene("facing-squares.obj");
+    let run = |more: &[&str]| place.run(&[&["compare", scene.as_str()], &QUICK[..], more].concat());
+    run(&["--save-reference", "truth.csv", "--csv", "a.csv", "-q"]).done();
+    let again = run(&["--reference", "truth.csv", "--csv", "b.csv"]).done();
+    assert!(again.stdout.contains("truth.csv"), "{}", again.stdout);
+    let read = |name| std::fs::read_to_string(place.path(name)).expect("a table is written");
+    assert_eq!(lasting(&read("a.csv")), lasting(&read("b.csv")));
+}
+
+#[test]
+fn what_cannot_be_compared_is_refused_before_the_scene_is_read() {
+    let place = Place::new();
+    place.write("file", "");
+    let run = |more: &[&str]| place.run(&[&["compare", "missing.obj"], more].concat());
+    run(&["--csv", "a.txt"]).refused(2, &["a.txt", ".csv"]);
+    run(&["--json", "a.csv"]).refused(2, &["a.csv", ".json"]);
+    run(&["--csv", "file/a.csv"]).refused(1, &["file/a.csv"]);
+    run(&["--csv", "a.csv", "--save-reference", "a.csv"]).refused(1, &["a.csv", "twice"]);
+    run(&["--budget", "0s"]).refused(2, &["2min"]);
+    run(&["--adaptive", "2"]).refused(2, &["tolerance"]);
+    run(&["--uniform", "0"]).refused(2, &["uniform"]);
+    run(&["--reference", "missing.csv"]).refused(1, &["missing.obj"]);
+}
