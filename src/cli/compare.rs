@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use clap::Args;
 use radiosity::compare::{self, Comparison, Effort, Plan, Source};
-use radiosity::load;
+use radiosity::{Scene, load};
 use serde_json::{Value, json};
 
 use super::compared::table;
@@ -14,6 +14,7 @@ use super::interrupt::Interrupt;
 use super::meter::Meter;
 use super::options::{MethodOptions, SceneOptions, TalkOptions, values};
 use super::record::SettingsRecord;
+use super::report::{self, Subject};
 use super::{console, outputs};
 
 /// Solve a scene on uniform and on adaptive meshes and say which is worth its cost
@@ -64,6 +65,12 @@ pub(crate) struct Compare {
     #[arg(long, value_name = "SHARE", value_parser = values::share, help_heading = "Comparison")]
     error: Option<f64>,
 
+    /// Page to write: verdict, pictures, errors, curves and both meshes in 3D, in one file
+    ///
+    /// It needs no network and no other file, and can be read and printed without scripts.
+    #[arg(short, long, value_name = "FILE.html", help_heading = "Writing")]
+    output: Option<PathBuf>,
+
     /// Table to write, a row a run
     #[arg(long, value_name = "FILE.csv", help_heading = "Writing")]
     csv: Option<PathBuf>,
@@ -85,7 +92,8 @@ pub(crate) struct Compare {
 
 const EXAMPLES: &str = "\
 Examples:
-  radiosity compare scenes/cornell-box.obj --csv runs.csv
+  radiosity compare scenes/cornell-box.obj -o report.html
+  radiosity compare scenes/two-rooms.obj --csv runs.csv
   radiosity compare scenes/blocker.obj --uniform 0.4,0.2,0.1 --adaptive 10%,5%,2% --budget 2min
   radiosity compare scenes/office.obj --quality draft --save-reference office.csv --json office.json
   radiosity compare scenes/office.obj --reference office.csv --adaptive 1% --uniform 0.05";
@@ -106,7 +114,7 @@ impl Compare {
             interrupt.flow()
         })?;
         meter.end();
-        self.write(&comparison, &plan)?;
+        self.write(&scene, &comparison, &plan)?;
         if !self.talk.quiet {
             console::print(&table(&self.scene.path, &comparison, self.written()))?;
         }
@@ -137,9 +145,8 @@ impl Compare {
     }
 
     fn check_outputs(&self) -> Result<(), Failure> {
-        let outputs: Vec<&Path> = self.written().collect();
         let inputs = [self.scene.path.as_path(), self.reference.as_path()];
-        outputs::check_compared(&inputs, &outputs)?;
+        outputs::check_compared(&inputs, self.output.as_deref(), &self.figures())?;
         let csv = [&self.csv, &self.save_reference];
         outputs::check_endings(csv.into_iter().flatten(), ".csv")?;
         outputs::check_endings(&self.json, ".json")?;
@@ -148,12 +155,22 @@ impl Compare {
 
     /// The files to write.
     fn written(&self) -> impl Iterator<Item = &Path> {
-        let files = [&self.csv, &self.json, &self.save_reference];
-        files.into_iter().flatten().map(PathBuf::as_path)
+        self.output.as_deref().into_iter().chain(self.figures())
     }
 
-    fn write(&self, comparison: &Comparison, plan: &Plan) -> Result<(), Failure> {
-        let about = self.about(plan, comparison.surfaces.extent);
+    fn figures(&self) -> Vec<&Path> {
+        let files = [&self.csv, &self.json, &self.save_reference];
+        files.into_iter().flatten().map(PathBuf::as_path).collect()
+    }
+
+    fn write(&self, scene: &Scene, comparison: &Comparison, plan: &Plan) -> Result<(), Failure> {
+        let settings = SettingsRecord::new(&plan.settings, comparison.surfaces.extent);
+        let about = self.about(&settings);
+        if let Some(output) = &self.output {
+            let path = &self.scene.path;
+            let subject = Subject { path, scene, comparison, settings: &settings, about: &about };
+            report::write(&subject, output)?;
+        }
         for path in [&self.csv, &self.json].into_iter().flatten() {
             compare::save(comparison, &about, path)?;
         }
@@ -164,12 +181,12 @@ impl Compare {
     }
 
     /// What a file has to say about where its figures come from.
-    fn about(&self, plan: &Plan, extent: f64) -> Value {
+    fn about(&self, settings: &SettingsRecord) -> Value {
         json!({
             "scene": self.scene.path,
             "version": env!("CARGO_PKG_VERSION"),
             "threads": rayon::current_num_threads(),
-            "settings": SettingsRecord::new(&plan.settings, extent),
+            "settings": settings,
         })
     }
 }

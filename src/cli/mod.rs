@@ -16,6 +16,7 @@ mod outputs;
 mod page;
 mod record;
 mod render;
+mod report;
 mod solve;
 mod summary;
 

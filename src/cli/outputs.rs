@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use radiosity::{Error, Result, compare, export, render};
+use radiosity::{Error, Result, compare, export, page, render};
 
 /// Whether all files could be written, and none of them is the one that is read.
 pub(crate) fn check(
@@ -35,8 +35,16 @@ pub(crate) fn check_factors(input: &Path, outputs: &[PathBuf]) -> Result<()> {
     Ok(())
 }
 
-/// The same for comparisons: tables of runs, and the reference, none in the place of another.
-pub(crate) fn check_compared(inputs: &[&Path], outputs: &[&Path]) -> Result<()> {
+/// The same for comparisons: a page, tables of runs, and the reference, none in the place of another.
+pub(crate) fn check_compared(
+    inputs: &[&Path],
+    report: Option<&Path>,
+    outputs: &[&Path],
+) -> Result<()> {
+    if let Some(path) = report {
+        inputs.iter().try_for_each(|input| refuse_input(input, path))?;
+        page::check_writable(path)?;
+    }
     for (number, path) in outputs.iter().enumerate() {
         inputs.iter().try_for_each(|input| refuse_input(input, path))?;
         if outputs[..number].contains(path) {

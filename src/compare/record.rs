@@ -49,16 +49,15 @@ pub fn save(comparison: &Comparison, about: &Value, path: &Path) -> Result<()> {
     file::replace(path, |out| match format {
         Format::Csv => write_runs(&comparison.runs, out),
         Format::Json => {
-            let record = Record {
-                about,
-                reference: About::new(&comparison.reference),
-                sentences: comparison.verdict.sentences(),
-                comparison,
-            };
-            serde_json::to_writer_pretty(&mut *out, &record)?;
+            serde_json::to_writer_pretty(&mut *out, &Record::new(comparison, about))?;
             writeln!(out)
         }
     })
+}
+
+/// All figures of a comparison, as [`save`] writes them.
+pub(super) fn figures(comparison: &Comparison, about: &Value) -> Value {
+    serde_json::to_value(Record::new(comparison, about)).unwrap_or_default()
 }
 
 /// Finds out before long work whether [`save`] could write to `path`; makes missing directories.
@@ -80,6 +79,13 @@ fn format_of(path: &Path) -> Result<Format> {
         Some("csv") => Ok(Format::Csv),
         Some("json") => Ok(Format::Json),
         _ => Err(Error::UnknownFormat { path: path.to_owned(), known: ".csv, .json" }),
+    }
+}
+
+impl<'a> Record<'a> {
+    fn new(comparison: &'a Comparison, about: &'a Value) -> Self {
+        let sentences = comparison.verdict.sentences();
+        Self { about, reference: About::new(&comparison.reference), sentences, comparison }
     }
 }
 

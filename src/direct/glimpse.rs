@@ -1,5 +1,7 @@
 //! Direct light by a ray to each lamp: right on the mean, and cheap.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 
 use super::punctual::{self, Source};
@@ -36,7 +38,7 @@ impl Lamps {
         };
         let reached: Vec<_> =
             self.areas.iter().map(|lamp| (lamp, lamp.reach(place, normal))).collect();
-        let sent = |(lamp, above): &(&AreaLamp, crate::visibility::Polygon)| {
+        let sent = |(lamp, above): &(&AreaLamp, Cow<'_, [DVec3]>)| {
             if above.is_empty() {
                 Rgb::ZERO
             } else {

@@ -37,6 +37,15 @@ pub struct Picture {
     pub(super) key: Vec<Swatch>,
 }
 
+impl Picture {
+    /// The same light and lines, with no legend below.
+    #[must_use]
+    pub fn without_legend(self) -> Self {
+        let view = if self.view.shows_radiance() { View::Light } else { self.view };
+        Self { view, ..self }
+    }
+}
+
 /// What a picture should hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderOptions {

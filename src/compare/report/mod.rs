@@ -9,6 +9,7 @@ mod tables;
 use serde_json::Value;
 
 use super::comparison::Comparison;
+use super::record::figures;
 use super::run::Lit;
 use crate::page::{self, Markup, Model, Step, Viewer, html};
 use crate::render::Display;
@@ -26,8 +27,8 @@ pub struct Account<'a> {
     pub identity: &'a [(&'static str, String)],
     /// What was repaired or assumed when the scene was read.
     pub notes: &'a [String],
-    /// All figures, for those who read the page by program.
-    pub data: &'a Value,
+    /// Where the figures come from, for those who read the page by program.
+    pub about: &'a Value,
     /// From where pictures are taken.
     pub camera: &'a Camera,
     /// How they are shown.
@@ -52,7 +53,7 @@ pub fn report(comparison: &Comparison, account: &Account<'_>) -> Markup {
         (tables::statistics(comparison))
         @if let Some(shown) = &shown { (turned(comparison, shown, account)) }
         (notes::notes(comparison, account.notes))
-        (page::data("comparison", account.data))
+        (page::data("comparison", &figures(comparison, account.about)))
     };
     page::document(account.title, &body)
 }

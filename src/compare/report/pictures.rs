@@ -97,9 +97,8 @@ impl Gallery {
         let errors = [&uniform, &adaptive].map(|p| ErrorMap::new(p, &reference, mean));
         let wires = RenderOptions { view: View::Wireframe, ..look.options() };
         let meshes = shown.lit.map(|lit| {
-            // Without the legend below, so that it lies over the picture.
-            let picture = render(&lit.mesh, account.camera, &wires);
-            png(&Picture { view: View::Light, ..picture }, &account.display)
+            // So that it lies over the picture.
+            png(&render(&lit.mesh, account.camera, &wires).without_legend(), &account.display)
         });
         let names = [shown.name(0), shown.name(1), "reference".to_owned()];
         let pictures = [uniform, adaptive, reference].map(|p| png(&p, &account.display));
