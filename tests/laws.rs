@@ -250,13 +250,15 @@ fn stages_are_what_a_limit_of_shots_leaves_and_lead_to_the_same_end() {
         radiosity::solve_in_stages(&surfaces, &coarse(), &[0, 3, 20, 1_000_000], go_on).unwrap();
     let found: Vec<usize> = stages.iter().map(radiosity::Solution::reflected_shots).collect();
     assert_eq!(found, [0, 3, 20], "what is never reached is left out");
-    let light = |solution| radiosity::reconstruct(&surfaces, solution).radiosity;
+    let light =
+        |solution: &radiosity::Solution| radiosity::reconstruct(&surfaces, solution).radiosity;
     for stage in &stages {
         let limited = Settings { max_shots: Some(stage.shots), ..coarse() };
         assert_eq!(light(stage), light(&solve(&surfaces, &limited)));
         assert!(stage.energy.imbalance().abs() < 0.005 && stage.ambient.min_element() > 0.0);
     }
-    let unshot = stages.iter().chain([&end]).map(|stage| stage.energy.unshot_share());
-    assert!(unshot.is_sorted_by(|more, less| more > less));
+    let unshot: Vec<f64> =
+        stages.iter().chain([&end]).map(|stage| stage.energy.unshot_share()).collect();
+    assert!(unshot.is_sorted_by(|more, less| more > less), "{unshot:?}");
     assert_eq!(light(&end), light(&solve(&surfaces, &coarse())));
 }

@@ -10,12 +10,17 @@ const PLACES: usize = 1000;
 /// Share of the errors that the scale holds.
 const ERRORS_SHOWN: f64 = 0.95;
 
+/// Share of the mesh darker than the scale: what lies under things takes a few hundredths.
+const DARK: f64 = 0.05;
+
 /// The least end of a logarithmic scale of radiosity as a share of the upper end, and the greatest.
-const LOW_SHARES: [f64; 2] = [0.003, 0.1];
+const LOW_SHARES: [f64; 2] = [0.001, 0.1];
 
 /// Ends of a logarithmic scale of radiosity, W/m², that lamps and the darkest corners do not stretch.
 pub(super) fn radiosity_range(mesh: &TriMesh) -> [f64; 2] {
-    let [low, high] = map::bulk(&by_area(mesh));
+    let values = by_area(mesh);
+    let [_, high] = map::bulk(&values);
+    let low = values.get((DARK * values.len() as f64) as usize).copied().unwrap_or(0.0);
     if !(high > 0.0 && high.is_finite()) {
         return [0.1, 1.0];
     }
