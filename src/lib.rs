@@ -13,7 +13,7 @@
 //! | [`reconstruct()`] → [`TriMesh`] | radiosity at the vertices of a conforming triangulation |
 //! | [`form_factor::assemble`] → [`form_factor::FormFactors`] | beside all that: the matrix itself, of patches by whole faces ([`faces_of`]) or surfaces |
 //! | [`export::save`], [`render::render`] | files for others, pictures |
-//! | [`page::viewer()`] and others, [`page::document`] | pages to share, with the mesh to turn in them |
+//! | [`page::viewer()`] and others, [`page::document()`] | pages to share, with the mesh to turn in them |
 //! | [`compare::compare`] → [`compare::Comparison`] | errors and costs of uniform and adaptive meshes, and a verdict |
 //!
 //! The modules, in the order in which data moves; one may use those to its left, never those to its right:

@@ -258,7 +258,8 @@ fn stages_are_what_a_limit_of_shots_leaves_and_lead_to_the_same_end() {
         assert_eq!(light(stage), light(&alone));
         assert!(stage.energy.imbalance().abs() < 0.005 && stage.ambient.min_element() > 0.0);
     }
-    let unshot = stages.iter().chain([&end]).map(|stage| stage.energy.unshot_share());
-    assert!(unshot.is_sorted_by(|more, less| more > less));
+    let unshot: Vec<f64> =
+        stages.iter().chain([&end]).map(|stage| stage.energy.unshot_share()).collect();
+    assert!(unshot.is_sorted_by(|more, less| more > less), "{unshot:?}");
     assert_eq!(light(&end), light(&solve(&surfaces, &coarse())));
 }

@@ -65,7 +65,7 @@ fn identity(subject: &Subject<'_>) -> Result<Vec<(&'static str, String)>> {
                 scene.materials.len()
             ),
         ),
-        ("Lights", format!("{emitters} surfaces, {} others", scene.lights.len())),
+        ("Lights", format!("emitting surfaces {emitters}, others {}", scene.lights.len())),
         ("Settings", format!("{settings}; tolerance and size by run")),
         ("Machine", machine()),
         ("Made", format!("{} by radiosity {}", now(), env!("CARGO_PKG_VERSION"))),

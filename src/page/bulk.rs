@@ -10,16 +10,15 @@ const PLACES: usize = 1000;
 /// Share of the errors that the scale holds.
 const ERRORS_SHOWN: f64 = 0.95;
 
-/// The least end of a logarithmic scale of radiosity as a share of the upper end, and the greatest.
-const LOW_SHARES: [f64; 2] = [0.003, 0.1];
+/// The lower end of a logarithmic scale of radiosity as a share of the upper end. The mesh itself does
+/// not tell: how much of it is black, under things and behind them, says nothing of what is seen.
+const LOW_SHARE: f64 = 0.01;
 
-/// Ends of a logarithmic scale of radiosity, W/m², that lamps and the darkest corners do not stretch.
+/// Ends of a logarithmic scale of radiosity, W/m², that lamps do not stretch.
 pub(super) fn radiosity_range(mesh: &TriMesh) -> [f64; 2] {
-    let [low, high] = map::bulk(&by_area(mesh));
-    if !(high > 0.0 && high.is_finite()) {
-        return [0.1, 1.0];
-    }
-    [low.clamp(LOW_SHARES[0] * high, LOW_SHARES[1] * high), high]
+    let [_, high] = map::bulk(&by_area(mesh));
+    let high = if high > 0.0 && high.is_finite() { high } else { 1.0 };
+    [LOW_SHARE * high, high]
 }
 
 /// What 95 of 100 `errors` keep within, rounded up to 1, 2 or 5 times a power of ten; 1 at most.

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 /// `value` as JSON in the page, to be read by `JSON.parse(document.getElementById(id).textContent)`.
 ///
-/// Whatever texts it holds, it ends nothing but itself: see [`inert`].
+/// Whatever texts it holds, it ends nothing but itself: `<`, `>` and `&` are escaped.
 pub fn data(id: &str, value: &Value) -> Markup {
     html! { script type="application/json" id=(id) { (inert(value)) } }
 }

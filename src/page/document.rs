@@ -49,7 +49,7 @@ pub fn document(title: &str, body: &Markup) -> Markup {
     }
 }
 
-/// Writes a [`document`]. Missing directories are made; the file appears whole or not at all.
+/// Writes a [`document()`]. Missing directories are made; the file appears whole or not at all.
 ///
 /// # Errors
 /// When the ending is not `.html`, or the file cannot be written.

@@ -22,6 +22,13 @@ pub fn columns(items: &[Markup]) -> Markup {
     }
 }
 
+/// The same, three where there is room.
+pub fn thirds(items: &[Markup]) -> Markup {
+    html! {
+        div.columns.thirds { @for item in items { div { (item) } } }
+    }
+}
+
 /// The picture alone.
 pub(super) fn image(png: &[u8], alt: &str) -> Markup {
     let [width, height] = size_of(png).map(|size| size.map(Some)).unwrap_or_default();

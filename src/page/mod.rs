@@ -3,12 +3,13 @@
 //! | component | with scripts | without |
 //! |---|---|---|
 //! | [`viewer()`] | a lit mesh in 3D: light, false colours, levels, reasons, errors, the mesh itself | its picture |
-//! | [`wipe`] | pictures on top of each other, a border to drag between two of them | side by side |
-//! | [`table`] | rows sort by a click on a header; download as CSV | a table |
-//! | [`facts`], [`picture`], [`columns`] | | the same |
-//! | [`data`] | JSON for whoever reads the page by program | |
+//! | [`wipe()`] | pictures on top of each other, a border to drag between two of them | side by side |
+//! | [`table()`] | rows sort by a click on a header; download as CSV | a table |
+//! | [`plot()`] | curves on axes | the same |
+//! | [`facts`], [`picture`], [`columns`], [`thirds`] | | the same |
+//! | [`data()`] | JSON for whoever reads the page by program | |
 //!
-//! [`document`] makes a page of them, [`save`] writes it. A page opens from a disk, asks for nothing
+//! [`document()`] makes a page of them, [`save`] writes it. A page opens from a disk, asks for nothing
 //! over a network and is not able to: its content security policy forbids it.
 //!
 //! ```
@@ -34,7 +35,7 @@ mod wipe;
 
 pub use data::data;
 pub use document::{check_writable, document, save};
-pub use image::{columns, picture};
+pub use image::{columns, picture, thirds};
 pub use maud::{Markup, html};
 pub use model::Model;
 pub use plot::{Axis, Curve, Plot, Stroke, plot};

@@ -10,9 +10,6 @@ use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
-/// Pixels of a plot at its natural size.
-const SIZE: (u32, u32) = (560, 380);
-
 /// How far the axes of logarithmic scales reach beyond the points, as a factor.
 const MARGIN: f64 = 1.3;
 
@@ -59,8 +56,8 @@ pub struct Curve {
 /// Curves, and what their axes mean.
 #[derive(Clone, Debug)]
 pub struct Plot<'a> {
-    /// Above it; nothing if empty.
-    pub title: &'a str,
+    /// Pixels across and up, at its natural size.
+    pub size: [u32; 2],
     /// From left to right.
     pub across: Axis<'a>,
     /// From bottom to top.
@@ -91,7 +88,7 @@ impl Plot<'_> {
         else {
             return Ok(());
         };
-        let area = SVGBackend::with_string(svg, SIZE).into_drawing_area();
+        let area = SVGBackend::with_string(svg, self.size.into()).into_drawing_area();
         area.fill(&WHITE)?;
         match (self.across.logarithmic, self.up.logarithmic) {
             (true, true) => self.draw_on(&area, across.log_scale(), up.log_scale())?,
@@ -129,11 +126,7 @@ impl Plot<'_> {
         X::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
         Y::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
     {
-        let mut builder = ChartBuilder::on(area);
-        if !self.title.is_empty() {
-            builder.caption(self.title, ("sans-serif", 17));
-        }
-        let mut chart = builder
+        let mut chart = ChartBuilder::on(area)
             .margin(12)
             .x_label_area_size(40)
             .y_label_area_size(58)
@@ -144,8 +137,8 @@ impl Plot<'_> {
             .bold_line_style(BLACK.mix(0.12))
             .x_desc(self.across.name)
             .y_desc(self.up.name)
-            .x_label_formatter(&|x| short(*x))
-            .y_label_formatter(&|y| short(*y))
+            .x_label_formatter(&|x| label(self.across, *x))
+            .y_label_formatter(&|y| label(self.up, *y))
             .label_style(("sans-serif", 13))
             .draw()?;
         for curve in &self.curves {
@@ -227,6 +220,13 @@ impl Plot<'_> {
         }
         Ok(())
     }
+}
+
+/// What stands beside a line across the plot: on logarithmic axes only at 1, 2, and 5, since others crowd.
+fn label(axis: Axis<'_>, value: f64) -> String {
+    let leading = value / 10_f64.powf(value.abs().log10().floor());
+    let crowds = axis.logarithmic && ![1.0, 2.0, 5.0, 10.0].iter().any(|x| (x - leading).abs() < 1e-6);
+    if crowds { String::new() } else { short(value) }
 }
 
 /// A number with as few digits as it needs.

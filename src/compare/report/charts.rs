@@ -23,7 +23,7 @@ pub(super) fn convergence(comparison: &Comparison) -> Markup {
         }
         @for verdict in &comparison.verdict.bands {
             h3 { (capital(verdict.band.name())) }
-            (page::columns(&Cost::ALL.map(|cost| curves(comparison, verdict, cost))))
+            (page::thirds(&Cost::ALL.map(|cost| curves(comparison, verdict, cost))))
             p { (slopes(verdict)) }
         }
     }
@@ -50,7 +50,7 @@ fn curves(comparison: &Comparison, verdict: &BandVerdict, cost: Cost) -> Markup 
         Cost::FormFactors => "evaluations of form factors",
     };
     let plot = Plot {
-        title: "",
+        size: [420, 320],
         across: Axis { name: across, logarithmic: true },
         up: Axis { name: "error, %", logarithmic: true },
         curves,
@@ -94,7 +94,7 @@ pub(super) fn profile(comparison: &Comparison) -> Markup {
         curves.push(curve("", COLOURS[k], Stroke::Ticks(k as u8), ticks));
     }
     let plot = Plot {
-        title: "",
+        size: [840, 400],
         across: Axis { name: "place along the line, m", logarithmic: false },
         up: Axis { name: "radiosity (luminance), W/m²", logarithmic: false },
         curves,
@@ -105,7 +105,7 @@ pub(super) fn profile(comparison: &Comparison) -> Markup {
     let alt = "Radiosity across the edge of a shadow: reference, uniform and adaptive";
     html! {
         h2 { "Across a shadow's edge" }
-        div.wide { (page::plot(&plot, alt)) }
+        (page::plot(&plot, alt))
         p {
             "From (" (from) ") to (" (to) ") m, across a penumbra of " (format!("{:.3}", profile.penumbra))
             " m. The ticks below are where edges of elements cross the line. The reference's standard error is at "

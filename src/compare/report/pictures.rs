@@ -138,11 +138,11 @@ impl Gallery {
                 let alt = format!("Close-up of a shadow's edge: {}", self.names[k]);
                 page::picture(&png(&pictures[k], &account.display), &alt, &self.names[k])
             };
-            page::columns(&[figure(0), figure(1), figure(2)])
+            page::thirds(&[0, 1, 2].map(figure))
         });
         html! {
             h2 { "Where they differ most" }
-            @for row in rows { div.close { (row) } }
+            @for row in rows { (row) }
             @if places.is_empty() { p { "Nowhere: both pictures are the reference's." } }
         }
     }
