@@ -3,13 +3,15 @@
 use crate::{Place, scene};
 
 /// A comparison that is a matter of a moment, with a reference good enough after the first few paths.
-const QUICK: [&str; 12] = [
+const QUICK: [&str; 14] = [
     "--adaptive",
     "50%,20%",
     "--uniform",
-    "0.2,0.1",
+    "0.2,0.06",
     "--noise",
     "50%",
+    "--places",
+    "500",
     "--quality",
     "draft",
     "--hemicube-resolution",
