@@ -37,8 +37,8 @@ fn a_comparison_says_who_wins_whatever_the_threads() {
         let outcome = place.run(&[&fixed[..], &QUICK].concat()).done();
         (outcome.stdout, std::fs::read_to_string(place.path(csv)).expect("a table is written"))
     };
-    let (told, one) = run("1", "one.csv");
-    let (_, two) = run("2", "two.csv");
+    let (_, one) = run("1", "one.csv");
+    let (told, two) = run("2", "two.csv");
     assert_eq!(lasting(&one), lasting(&two));
     assert_eq!(one.lines().count(), 5, "{one}");
     for words in
