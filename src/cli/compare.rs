@@ -40,7 +40,10 @@ pub(crate) struct Compare {
     #[arg(default_value = "0.2,0.1,0.05,0.02", help_heading = "Comparison")]
     adaptive: Vec<f64>,
 
-    /// The truth: auto, or a .csv (x,y,z,nx,ny,nz,r,g,b and, if known, se_r,se_g,se_b,set) or .npz
+    /// The truth: auto, or a .csv or .npz with radiosity at places of its own
+    ///
+    /// CSV has the columns x,y,z,nx,ny,nz,r,g,b (W/m²) and, if it likes, `se_r,se_g,se_b` (standard errors),
+    /// set (0 all surfaces, 1 edges of shadows) and weight. NPZ has the arrays `pos`, `nrm`, `B` and the like.
     #[arg(long, value_name = "auto|FILE", default_value = "auto", help_heading = "Comparison")]
     reference: PathBuf,
 

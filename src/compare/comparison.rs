@@ -121,9 +121,10 @@ impl Series<'_> {
         for &tolerance in &self.plan.adaptive {
             self.add((Family::Adaptive, tolerance), observer)?;
         }
-        let most = self.runs.iter().map(|run| run.elements).max().unwrap_or(0);
+        let counts = || self.runs.iter().map(|run| run.elements);
+        let range = [counts().min().unwrap_or(0), counts().max().unwrap_or(0)];
         if observer.flow.is_continue() {
-            for size in self.plan.sizes(self.surfaces, most) {
+            for size in self.plan.sizes(self.surfaces, range) {
                 self.add((Family::Uniform, size), observer)?;
             }
         }

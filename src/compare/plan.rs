@@ -8,14 +8,14 @@ use crate::mesh::Mesh;
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 
-/// Fewest elements of the coarsest uniform mesh whose size is not given.
-const COARSEST: usize = 300;
+/// Fewest elements of the coarsest uniform mesh whose size is not given, unless an adaptive one has fewer.
+const COARSEST: usize = 200;
 
 /// Elements of the finest uniform mesh whose size is not given, over those of the finest adaptive one.
 const FINEST: usize = 4;
 
-/// Most uniform meshes whose sizes are not given.
-const MOST: usize = 6;
+/// Fewest and most uniform meshes whose sizes are not given.
+const COUNT: [usize; 2] = [3, 6];
 
 /// Most elements of a uniform mesh whose size is not given.
 const BEARABLE: usize = 1_000_000;
@@ -74,28 +74,33 @@ impl Plan {
         Settings { tolerance, uniform: Some(size), ..self.settings.clone() }
     }
 
-    /// The sizes of uniform meshes, from coarse to fine, beside adaptive ones of at most so many elements.
-    pub fn sizes(&self, surfaces: &Surfaces, adaptive_elements: usize) -> Vec<f64> {
+    /// The sizes of uniform meshes, from coarse to fine, beside adaptive ones of so many elements: the fewest
+    /// and the most.
+    pub fn sizes(&self, surfaces: &Surfaces, [fewest, most]: [usize; 2]) -> Vec<f64> {
         if let Some(sizes) = &self.uniform {
             return sizes.clone();
         }
-        let count = |size: f64| Mesh::new(surfaces, &self.uniform_settings(size)).leaves().count();
-        let goal = (FINEST * adaptive_elements).clamp(2 * COARSEST, BEARABLE);
+        let count = |size: f64| {
+            let mesh = Mesh::new(surfaces, &self.uniform_settings(size));
+            let reflectance = |leaf| surfaces.list[mesh.surface_of(leaf)].reflectance;
+            mesh.leaves().filter(|&leaf| reflectance(leaf).max_element() > 0.0).count()
+        };
+        let (coarsest, goal) = (COARSEST.min(fewest), (FINEST * most).min(BEARABLE));
         // Elements are divided in quarters: halving the size is the least that makes a difference.
         let mut size = surfaces.extent / 4.0;
         let mut sizes = Vec::new();
         loop {
             let elements = count(size);
-            if elements >= COARSEST {
+            if elements >= coarsest {
                 sizes.push(size);
             }
             // The next would have about four times as many: nearer to the goal, by ratio, if below half of it.
-            if 2 * elements > goal || sizes.len() > 24 {
+            if (2 * elements > goal && sizes.len() >= COUNT[0]) || size < 1e-6 * surfaces.extent {
                 break;
             }
             size /= 2.0;
         }
-        sizes.split_off(sizes.len().saturating_sub(MOST))
+        sizes.split_off(sizes.len().saturating_sub(COUNT[1]))
     }
 }
 
@@ -115,10 +120,10 @@ impl Plan {
         if !self.error.is_none_or(|error| error > 0.0 && error.is_finite()) {
             return Err(setting("error", "the error to compare at must be above zero"));
         }
-        if let Source::Traced(Effort { noise, area_points, .. }) = self.reference {
-            if !(noise > 0.0 && area_points > 0) {
-                return Err(setting("noise", "noise and number of places must be above zero"));
-            }
+        if let Source::Traced(Effort { noise, area_points, .. }) = self.reference
+            && !(noise > 0.0 && area_points > 0)
+        {
+            return Err(setting("noise", "noise and number of places must be above zero"));
         }
         self.all_settings().try_for_each(|settings| settings.validate())
     }

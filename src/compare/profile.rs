@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::estimate::{Estimate, ROUNDS};
 use super::locate::Locator;
-use super::reference::{Reference, Set};
+use super::reference::{Reference, Set, is_open};
 use super::run::Lit;
 use super::sampler::{Sampler, Site};
 use crate::colour::luminance;
@@ -19,7 +19,7 @@ const PLACES: usize = 65;
 /// Length of the line, in widths of the penumbra.
 const WIDTHS: f64 = 5.0;
 
-/// Step of differences, as a share of the extent.
+/// Step along a penumbra, as a share of the extent.
 const STEP: f64 = 1e-3;
 
 /// Steps away from the middle at which a penumbra is taken for the whole surface.
@@ -30,6 +30,9 @@ const LARGE: f64 = 0.05;
 
 /// Other random numbers than the reference's by default.
 const PROFILE_SEED: u64 = 2;
+
+/// Scales at which an edge must be smooth, as shares of the extent: a wide penumbra is looked for first.
+const SCALES: [f64; 2] = [1e-2, 2e-3];
 
 /// The gradient may change by this factor when its step is halved; where it changes more, light jumps.
 const SMOOTH: f64 = 1.5;
@@ -73,12 +76,13 @@ impl Profile {
     /// Across the steepest smooth edge of a shadow on a large surface; `None` if there is none.
     pub fn find(surfaces: &Surfaces, reference: &Reference, paths: usize) -> Option<Self> {
         let sampler = Sampler::new(surfaces);
-        let edge = steepest(&sampler, reference)?;
+        let scales = SCALES.iter().map(|scale| scale * surfaces.extent);
+        let edge = scales.into_iter().find_map(|scale| steepest(&sampler, reference, scale))?;
         let surface = &surfaces.list[edge.site.surface];
         let middle = surface.plane.flatten(edge.site.place);
         let (penumbra, centre) = width(&sampler, &edge, middle)?;
         let along = edge.direction * (WIDTHS * penumbra / 2.0);
-        let ends = clipped(surface, middle + edge.direction * centre, along)?;
+        let ends = clipped((&sampler, &edge.site), middle + edge.direction * centre, along)?;
         let length = ends[0].distance(ends[1]);
         let at: Vec<f64> = (0..PLACES).map(|k| length * k as f64 / (PLACES - 1) as f64).collect();
         let site = |&at: &f64| {
@@ -131,7 +135,7 @@ impl Profile {
 }
 
 /// The steepest edge among the places of the shadow set; where light jumps there is no penumbra.
-fn steepest(sampler: &Sampler<'_>, reference: &Reference) -> Option<Edge> {
+fn steepest(sampler: &Sampler<'_>, reference: &Reference, scale: f64) -> Option<Edge> {
     let surfaces = sampler.surfaces;
     let largest = surfaces.list.iter().map(Surface::area).fold(0.0, f64::max);
     let shadow = reference.points.iter().filter(|point| point.set == Set::Shadow);
@@ -142,7 +146,8 @@ fn steepest(sampler: &Sampler<'_>, reference: &Reference) -> Option<Edge> {
             large.then_some(Site { surface, place: point.place, normal: point.normal })
         })
         .collect();
-    let found: Vec<Option<Edge>> = sites.par_iter().map(|site| edge(sampler, site)).collect();
+    let found: Vec<Option<Edge>> =
+        sites.par_iter().map(|site| edge(sampler, site, scale)).collect();
     let found = found.into_iter().flatten();
     found.reduce(|best, edge| if edge.steepness > best.steepness { edge } else { best })
 }
@@ -158,8 +163,7 @@ fn surface_at(surfaces: &Surfaces, place: DVec3, normal: DVec3) -> Option<usize>
 }
 
 /// How shadow falls at a place, if smoothly.
-fn edge(sampler: &Sampler<'_>, site: &Site) -> Option<Edge> {
-    let step = STEP * sampler.surfaces.extent;
+fn edge(sampler: &Sampler<'_>, site: &Site, step: f64) -> Option<Edge> {
     let whole = gradient(sampler, site, step)?;
     let half = gradient(sampler, site, step / 2.0)?;
     let steepness = whole.length();
@@ -206,10 +210,20 @@ fn width(sampler: &Sampler<'_>, edge: &Edge, middle: DVec2) -> Option<(f64, f64)
     (up + down > 0.0).then_some((up + down, (up - down) / 2.0))
 }
 
-/// The part of the line from `middle - along` to `middle + along` around its middle that is on a surface.
-fn clipped(surface: &Surface, middle: DVec2, along: DVec2) -> Option<[DVec2; 2]> {
+/// The part of the line from `middle - along` to `middle + along` around its middle that is on a site's
+/// surface, and not inside a solid.
+fn clipped(
+    (sampler, site): (&Sampler<'_>, &Site),
+    middle: DVec2,
+    along: DVec2,
+) -> Option<[DVec2; 2]> {
+    let surface = &sampler.surfaces.list[site.surface];
     let reach = |direction: DVec2| {
-        let inside = |share: f64| contains(&surface.rings, middle + direction * share);
+        let inside = |share: f64| {
+            let at = middle + direction * share;
+            let site = Site { place: surface.plane.lift(at), ..*site };
+            contains(&surface.rings, at) && is_open(sampler, &site)
+        };
         let steps = (1..=256).map(|k| f64::from(k) / 256.0);
         steps.take_while(|&share| inside(share)).last()
     };

@@ -136,6 +136,7 @@ fn counts(run: &Run) -> Vec<Cell> {
         cell("family", run.family.name()),
         cell("size_or_tolerance", run.knob),
         cell("elements", run.elements),
+        cell("leaves", run.leaves),
         cell("triangles", run.triangles),
         cell("vertices", run.vertices),
         cell("patches", run.patches),

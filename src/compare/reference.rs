@@ -147,9 +147,12 @@ fn places(sampler: &Sampler<'_>, effort: &Effort) -> (Vec<Site>, Vec<(Set, f64)>
     let shadow = shadow_sites(sampler, effort.shadow_points, effort.seed).into_iter();
     let area = area.map(|placed| (placed.site, (Set::Area, placed.area)));
     let all: Vec<_> = area.chain(shadow.map(|site| (site, (Set::Shadow, 1.0)))).collect();
-    let is_open =
-        |site: &Site| !is_covered(sampler.surfaces, site) && sampler.backs(site, LOOKS) <= BURIED;
-    all.into_par_iter().filter(|(site, _)| is_open(site)).unzip()
+    all.into_par_iter().filter(|(site, _)| is_open(sampler, site)).unzip()
+}
+
+/// True if a site is not inside a solid.
+pub(super) fn is_open(sampler: &Sampler<'_>, site: &Site) -> bool {
+    !is_covered(sampler.surfaces, site) && sampler.backs(site, LOOKS) <= BURIED
 }
 
 /// True where another surface lies face to face on a site's own, as the bottom of a box that stands on a floor.

@@ -9,7 +9,7 @@ use super::memory::Peak;
 use super::reference::Reference;
 use super::score::{Score, score};
 use crate::error::Result;
-use crate::mesh::{Divided, SizeBin};
+use crate::mesh::{Divided, ElementId, SizeBin};
 use crate::reconstruct::{Angles, TriMesh, reconstruct};
 use crate::settings::Settings;
 use crate::solver::{Phase, Progress, Solution, Stop, Work, solve};
@@ -81,8 +81,10 @@ pub struct Run {
     pub settings: Settings,
     /// True if the solver came to its end.
     pub converged: bool,
-    /// Leaves.
+    /// Leaves on surfaces that reflect; on others no light shows, and only uniform meshes divide them.
     pub elements: usize,
+    /// All leaves.
+    pub leaves: usize,
     /// Triangles.
     pub triangles: usize,
     /// Vertices of the triangles.
@@ -143,12 +145,16 @@ impl Run {
         let peak_memory = peak.bytes();
         let score = score(reference, &mesh, surfaces.extent);
         let leaves = &solution.mesh;
+        let reflects = |leaf: ElementId| {
+            surfaces.list[leaves.surface_of(leaf)].reflectance.max_element() > 0.0
+        };
         Ok(Self {
             family,
             knob,
             settings: settings.clone(),
             converged: solution.stop == Stop::Converged,
-            elements: leaves.leaves().count(),
+            elements: leaves.leaves().filter(|&leaf| reflects(leaf)).count(),
+            leaves: leaves.leaves().count(),
             triangles: mesh.triangles.len(),
             vertices: mesh.positions.len(),
             patches: leaves.patches.len(),

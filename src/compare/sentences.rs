@@ -98,7 +98,9 @@ fn lead(elements: Winner, seconds: Winner) -> String {
     match (elements, seconds) {
         (One(a), One(b)) if a == b => format!("{} wins", capital(a)),
         (Tie, Tie) => "A tie".to_owned(),
-        (Unknown, _) | (_, Unknown) => "Undecided".to_owned(),
+        (Unknown, _) => "Undecided".to_owned(),
+        (Tie, Unknown) => "A tie in elements".to_owned(),
+        (One(fewer), Unknown) => format!("{} needs fewer elements", capital(fewer)),
         (One(fewer), Tie) => format!("{} needs fewer elements, as much time", capital(fewer)),
         (Tie, One(faster)) => format!("{} takes less time, as many elements", capital(faster)),
         (One(fewer), One(faster)) => {
@@ -137,6 +139,9 @@ fn factor(at: &AtEqualError) -> Option<String> {
 /// A share as per cent, to two digits that count.
 pub fn percent(share: f64) -> String {
     let number = 100.0 * share;
+    if number == 0.0 {
+        return "0 %".to_owned();
+    }
     let places = if number >= 10.0 {
         0
     } else if number >= 1.0 {

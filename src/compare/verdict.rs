@@ -13,7 +13,7 @@ pub const TIE: f64 = 1.1;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Cost {
-    /// Leaves.
+    /// Leaves on surfaces that reflect.
     Elements,
     /// Time.
     Seconds,
@@ -205,9 +205,11 @@ impl AtEqualError {
         use Needed::{About, AtMost};
         match (self.needed, self.ratio()) {
             // What is known to be no more may be less than what it seems to lose against.
-            ([AtMost(_), AtMost(_)], _) => Winner::Unknown,
-            ([AtMost(_), About(_)], Some(ratio)) if ratio > 1.0 / TIE => Winner::Unknown,
-            ([About(_), AtMost(_)], Some(ratio)) if ratio < TIE => Winner::Unknown,
+            ([AtMost(_), About(_)], Some(ratio)) if ratio > TIE => Winner::Unknown,
+            ([About(_), AtMost(_)], Some(ratio)) if ratio < 1.0 / TIE => Winner::Unknown,
+            ([AtMost(_), AtMost(_)], Some(ratio)) if winner(ratio) != Winner::Tie => {
+                Winner::Unknown
+            }
             (_, Some(ratio)) => winner(ratio),
             ([Needed::NotReached, Needed::NotReached], _) => Winner::Unknown,
             ([Needed::NotReached, _], _) => Winner::One(Family::Adaptive),

@@ -5,8 +5,13 @@ use crate::{Place, scene};
 #[test]
 fn help_of_every_subcommand_shows_an_example() {
     let place = Place::new();
-    for arguments in [&["--help"][..], &["solve", "-h"], &["render", "--help"], &["info", "--help"]]
-    {
+    for arguments in [
+        &["--help"][..],
+        &["solve", "-h"],
+        &["compare", "--help"],
+        &["render", "--help"],
+        &["info", "--help"],
+    ] {
         let help = place.run(arguments).done();
         assert!(help.stdout.contains("  radiosity "), "{}", help.stdout);
     }

@@ -6,4 +6,5 @@ mod common;
 mod files;
 mod reference;
 mod score;
+mod statistics;
 mod verdict;
