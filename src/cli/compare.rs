@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
+use radiosity::Scene;
 use radiosity::compare::{self, Comparison, Effort, Plan, Source};
-use radiosity::{Scene, load};
 use serde_json::{Value, json};
 
 use super::compared::table;
@@ -110,7 +110,7 @@ impl Compare {
         let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.talk);
         meter.begin("reading");
-        let scene = load(&self.scene.path, &self.scene.load_options())?;
+        let scene = self.scene.load_lit()?;
         scene.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
         let comparison = compare::compare(&scene, &plan, &mut |progress| {
             meter.advance(&progress.phase, progress.done);

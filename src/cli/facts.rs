@@ -9,6 +9,7 @@ use radiosity::scene::{Light, Material};
 use radiosity::{Scene, Surfaces};
 use serde::Serialize;
 
+use super::options::HINT;
 use super::record::{CameraRecord, triple};
 
 /// A scene in figures.
@@ -49,8 +50,10 @@ struct MaterialFacts {
 #[derive(Debug, Serialize)]
 struct LightFacts {
     kind: &'static str,
-    /// Radiant intensity, W/sr, or of directional lights irradiance, W/m².
+    /// In the unit.
     strength: [f64; 3],
+    /// W/sr of points; W/m² of directional lights, facing them, and of skies, horizontally; W of luminaires.
+    unit: &'static str,
 }
 
 impl Facts {
@@ -58,7 +61,7 @@ impl Facts {
         let (low, high) = scene.bounds().unwrap_or_default();
         let mut notes = scene.notes.clone();
         if !scene.is_lit() {
-            notes.push("nothing emits light; this cannot be solved".to_owned());
+            notes.push(format!("nothing emits light; this cannot be solved; {HINT}"));
         }
         let material =
             |(number, material)| MaterialFacts::new(scene, material, number, (surfaces, mesh));
@@ -110,12 +113,15 @@ impl MaterialFacts {
 
 impl From<&Light> for LightFacts {
     fn from(light: &Light) -> Self {
-        let (kind, strength) = match light {
-            Light::Point { intensity, .. } => ("point", intensity),
-            Light::Spot { intensity, .. } => ("spot", intensity),
-            Light::Directional { irradiance, .. } => ("directional", irradiance),
+        let watts = |lumens: f64| Rgb::splat(lumens / LUMENS_PER_WATT);
+        let (kind, strength, unit) = match light {
+            Light::Point { intensity, .. } => ("point", *intensity, "W/sr"),
+            Light::Spot { intensity, .. } => ("spot", *intensity, "W/sr"),
+            Light::Directional { irradiance, .. } => ("directional", *irradiance, "W/m²"),
+            Light::Luminaire { photometry, .. } => ("luminaire", watts(photometry.flux()), "W"),
+            Light::Sky { irradiance, .. } => ("sky", *irradiance, "W/m²"),
         };
-        Self { kind, strength: strength.to_array() }
+        Self { kind, strength: strength.to_array(), unit }
     }
 }
 
@@ -145,8 +151,8 @@ impl Display for Facts {
             writeln!(f, "  {name}: {} W, {flux:.4} lm", triple(*power))?;
         }
         for light in &self.lights {
-            let unit = if light.kind == "directional" { "W/m²" } else { "W/sr" };
-            writeln!(f, "  {} light: {} {unit}", light.kind, triple(light.strength))?;
+            let LightFacts { kind, strength, unit } = light;
+            writeln!(f, "  {kind} light: {} {unit}", triple(*strength))?;
         }
         write!(f, "cameras    {}", self.cameras.len())?;
         for (number, camera) in self.cameras.iter().enumerate() {

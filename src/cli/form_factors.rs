@@ -8,7 +8,7 @@ use radiosity::export::{FactorPatch, FactorTable, save_factors};
 use radiosity::form_factor::{self, Assembled, assemble, factors_at};
 use radiosity::mesh::Mesh;
 use radiosity::visibility::Occluders;
-use radiosity::{Error, Length, Settings, Surfaces, faces_of, load};
+use radiosity::{Error, Length, Settings, Surfaces, faces_of};
 
 use super::console;
 use super::enclosure::Enclosure;
@@ -91,7 +91,7 @@ impl FormFactors {
         let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
-        let scene = load(&self.scene.path, &self.scene.load_options())?;
+        let scene = self.scene.load()?;
         scene.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
         let surfaces = patches_from(faces_of(&scene), &settings);
         settings.validate_for(surfaces.area(), surfaces.extent)?;

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use radiosity::mesh::Mesh;
-use radiosity::{load, surfaces_of};
+use radiosity::surfaces_of;
 
 use super::console;
 use super::facts::Facts;
@@ -30,7 +30,7 @@ impl Info {
         let settings = self.accuracy.settings();
         settings.validate()?;
         self.report.talk.use_threads()?;
-        let scene = load(&self.scene.path, &self.scene.load_options())?;
+        let scene = self.scene.load()?;
         let surfaces = surfaces_of(&scene);
         settings.validate_for(surfaces.area(), surfaces.extent)?;
         let mesh = Mesh::new(&surfaces, &settings);

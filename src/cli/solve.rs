@@ -7,13 +7,13 @@ use radiosity::export::{self, Stamp};
 use radiosity::render::{self, Solved, Subject};
 use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
-use radiosity::{Scene, load, reconstruct, solve_in_stages, surfaces_of};
+use radiosity::{Error, Scene, Solution, reconstruct, solve_in_stages, surfaces_of};
 
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
 use super::options::{
-    AccuracyOptions, CameraChoice, PictureOptions, ReportOptions, SceneOptions, display,
+    AccuracyOptions, CameraChoice, HINT, PictureOptions, ReportOptions, SceneOptions, display,
 };
 use super::page::{Account, PageOptions};
 use super::record::{CameraRecord, SettingsRecord, stamped};
@@ -101,6 +101,7 @@ impl Solve {
             meter.follow(progress);
             interrupt.flow()
         })?;
+        refuse_darkness(&solution)?;
         meter.begin("triangles");
         let mesh = reconstruct(&surfaces, &solution);
 
@@ -142,7 +143,7 @@ impl Solve {
 
     fn read(&self, meter: &mut Meter) -> Result<(Scene, CameraChoice), Failure> {
         meter.begin("reading");
-        let scene = load(&self.scene.path, &self.scene.load_options())?;
+        let scene = self.scene.load_lit()?;
         let camera = self.picture.choose_camera(&scene.cameras)?;
         for note in &scene.notes {
             meter.tell(&format!("note: {note}"));
@@ -215,4 +216,14 @@ impl Solve {
         }
         Ok(())
     }
+}
+
+/// Whether any light arrives at all.
+fn refuse_darkness(solution: &Solution) -> Result<(), Error> {
+    if solution.energy.absorbed.max_element() > 0.0 {
+        return Ok(());
+    }
+    Err(Error::Scene(format!(
+        "all is black: light arrives at the front of no surface; if surfaces face away, try --two-sided on, or {HINT}"
+    )))
 }

@@ -7,7 +7,6 @@ use glam::DVec3;
 use super::punctual::{self, Source};
 use super::{AreaLamp, Lamps};
 use crate::colour::Rgb;
-use crate::form_factor::contour::point_to_polygon_above;
 use crate::visibility::Occluders;
 
 /// Lamps that send less than this share of the light are looked at as much more seldom.
@@ -42,7 +41,7 @@ impl Lamps {
             if above.is_empty() {
                 Rgb::ZERO
             } else {
-                lamp.exitance * point_to_polygon_above(place, normal, above)
+                lamp.exitance * lamp.glow.weight((place, normal), above)
             }
         };
         let sent: Vec<Rgb> = reached.iter().map(sent).collect();
@@ -69,12 +68,17 @@ impl Lamps {
 }
 
 impl AreaLamp {
-    /// Form factor of a small piece of the lamp over its area, 1/m²: cos cos / (π d²).
+    /// Weight of a small piece of the lamp over its area, 1/m²: cos cos / (π d²) where it glows evenly.
     fn kernel(&self, place: DVec3, normal: DVec3, at: DVec3) -> f64 {
         let way = at - place;
         let square = way.length_squared();
         let cosines = way.dot(normal).max(0.0) * (-way.dot(self.front.normal)).max(0.0);
-        if square > 0.0 { cosines / (std::f64::consts::PI * square * square) } else { 0.0 }
+        if square > 0.0 {
+            self.glow.radiance(way / square.sqrt()) * cosines
+                / (std::f64::consts::PI * square * square)
+        } else {
+            0.0
+        }
     }
 }
 

@@ -6,6 +6,7 @@ mod glimpse;
 mod lines;
 mod outlook;
 mod punctual;
+mod sky;
 mod tally;
 
 use std::borrow::Cow;
@@ -16,8 +17,8 @@ use crate::colour::Rgb;
 use crate::form_factor::contour::{point_to_polygon, point_to_polygon_above};
 use crate::mesh::{Direct, Mesh};
 use crate::scene::Light;
-use crate::surface::Surfaces;
 use crate::surface::cut::{Cuts, convex_pieces};
+use crate::surface::{Surface, Surfaces};
 use crate::visibility::{Facet, HalfSpace, Occluders, Pieces, Polygon};
 
 pub use lines::Line;
@@ -40,8 +41,43 @@ pub struct Lamps {
 struct AreaLamp {
     corners: Polygon,
     front: HalfSpace,
-    /// W/m².
+    /// W/m²; of skies, at the zenith.
     exitance: Rgb,
+    glow: Glow,
+}
+
+/// How a lamp's radiance depends on the direction from which it comes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Glow {
+    /// Not at all, from a surface.
+    Surface,
+    /// Not at all, from the sky.
+    Even,
+    /// As that of an overcast sky.
+    Overcast,
+}
+
+impl Glow {
+    /// Irradiance of a place with unit normal by a polygon above its horizon, as a share of the exitance.
+    fn weight(self, receiver: (DVec3, DVec3), polygon: &[DVec3]) -> f64 {
+        let factor = point_to_polygon_above(receiver.0, receiver.1, polygon);
+        match self {
+            Self::Surface | Self::Even => factor,
+            Self::Overcast => sky::overcast(receiver, polygon, factor),
+        }
+    }
+
+    /// Radiance along a unit direction towards the lamp, as a share of the largest.
+    fn radiance(self, direction: DVec3) -> f64 {
+        match self {
+            Self::Surface | Self::Even => 1.0,
+            Self::Overcast => sky::overcast_radiance(direction),
+        }
+    }
+
+    fn is_sky(self) -> bool {
+        self != Self::Surface
+    }
 }
 
 impl Lamps {
@@ -57,6 +93,7 @@ impl Lamps {
                     corners: patch.corners.iter().copied().collect(),
                     front,
                     exitance: patch.exitance,
+                    glow: Glow::Surface,
                 }));
             } else {
                 let cuts =
@@ -65,11 +102,21 @@ impl Lamps {
                     corners: piece.iter().map(|&p| surface.plane.lift(p)).collect(),
                     front,
                     exitance: surface.exitance,
+                    glow: Glow::Surface,
                 }));
             }
         }
+        let mut points = Vec::new();
+        for light in &surfaces.lights {
+            match *light {
+                Light::Sky { sky, irradiance } => {
+                    areas.extend(sky::lamps(surfaces, sky, irradiance));
+                }
+                _ => points.push(light.clone()),
+            }
+        }
         areas.retain(|lamp| lamp.exitance.max_element() > 0.0);
-        Self { areas, points: surfaces.lights.clone(), rows: None, tally: Tally::default() }
+        Self { areas, points, rows: None, tally: Tally::default() }
     }
 
     /// With [`Settings::shadow_rays`](crate::settings::Settings::shadow_rays): what hides a polygon is found by about
@@ -158,16 +205,18 @@ impl AreaLamp {
         if above.is_empty() {
             return None;
         }
-        let all = point_to_polygon_above(place, normal, &above);
+        let all = self.glow.weight(receiver, &above);
         let exact = match (screen, rows) {
             ((_, Some([])), _) => Some(all),
             (_, Some(_)) => None,
             (_, None) => self.seen(screen, receiver, &above),
         };
-        let rows = rows.unwrap_or(STRATA);
+        let rows = rows.unwrap_or(if self.glow.is_sky() { SKY_STRATA } else { STRATA });
         let rays = u64::from(rows * rows) * (above.len() as u64 - 2);
-        let (seen, rays) = exact
-            .map_or_else(|| (sampled(screen.0, receiver, &above, rows), rays), |exact| (exact, 0));
+        let (seen, rays) = exact.map_or_else(
+            || (self.sampled(screen.0, receiver, (&above, rows)), rays),
+            |exact| (exact, 0),
+        );
         let (irradiance, unoccluded) = (self.exitance * seen.min(all), self.exitance * all);
         Some(Arriving { light: Direct { irradiance, unoccluded }, rays })
     }
@@ -208,40 +257,46 @@ impl AreaLamp {
             (occluders, None) => occluders.visible_part(place, above, self.front.normal),
         };
         exact.map(|pieces: Pieces| {
-            pieces.iter().map(|piece| point_to_polygon_above(place, normal, piece)).sum()
+            pieces.iter().map(|piece| self.glow.weight((place, normal), piece)).sum()
         })
+    }
+
+    /// The visible part's weight by a ray to each of the cells in so many rows on each triangle of the part
+    /// above the horizon: the fallback where much stands in between.
+    fn sampled(
+        &self,
+        occluders: &Occluders,
+        (place, normal): (DVec3, DVec3),
+        (polygon, rows): (&[DVec3], u32),
+    ) -> f64 {
+        let mut sum = 0.0;
+        for k in 1..polygon.len() - 1 {
+            let triangle = [polygon[0], polygon[k], polygon[k + 1]];
+            for cell in cells(triangle, rows) {
+                let middle = cell.iter().sum::<DVec3>() / 3.0;
+                if !occluders.blocks(place, middle) {
+                    let share = self.glow.radiance((middle - place).normalize_or_zero());
+                    sum += share * point_to_polygon(place, normal, &cell);
+                }
+            }
+        }
+        sum
     }
 }
 
 /// Cells along an edge of each triangle of a light where exact cutting has given up.
 const STRATA: u32 = 12;
 
-/// The visible part's form factor by a ray to each of the cells in this many rows on each triangle of the
-/// polygon: the fallback where much stands in between.
-fn sampled(
-    occluders: &Occluders,
-    (place, normal): (DVec3, DVec3),
-    polygon: &[DVec3],
-    rows: u32,
-) -> f64 {
-    let mut sum = 0.0;
-    for k in 1..polygon.len() - 1 {
-        let [a, b, c] = [polygon[0], polygon[k], polygon[k + 1]];
-        let (u, v) = ((b - a) / f64::from(rows), (c - a) / f64::from(rows));
-        for row in 0..rows {
-            for column in 0..rows - row {
-                let corner = a + u * f64::from(column) + v * f64::from(row);
-                let mut cells = vec![[corner, corner + u, corner + v]];
-                if column + row + 1 < rows {
-                    cells.push([corner + u, corner + u + v, corner + v]);
-                }
-                for cell in cells {
-                    if !occluders.blocks(place, cell.iter().sum::<DVec3>() / 3.0) {
-                        sum += point_to_polygon(place, normal, &cell);
-                    }
-                }
-            }
-        }
-    }
-    sum
+/// The same for each of the pieces of a sky, which together are many.
+const SKY_STRATA: u32 = 6;
+
+/// Equal triangles in so many rows that make up one.
+fn cells([a, b, c]: [DVec3; 3], rows: u32) -> impl Iterator<Item = [DVec3; 3]> {
+    let (u, v) = ((b - a) / f64::from(rows), (c - a) / f64::from(rows));
+    let places = (0..rows).flat_map(move |row| (0..rows - row).map(move |column| (row, column)));
+    places.flat_map(move |(row, column)| {
+        let corner = a + u * f64::from(column) + v * f64::from(row);
+        let between = (column + row + 1 < rows).then(|| [corner + u, corner + u + v, corner + v]);
+        [Some([corner, corner + u, corner + v]), between].into_iter().flatten()
+    })
 }

@@ -34,8 +34,9 @@ struct Outlook {
 struct Prospect {
     /// Index into [`Lamps::areas`].
     lamp: u32,
-    /// The numbers of the occluders of which something stands between.
-    between: Box<[u32]>,
+    /// The numbers of the occluders of which something stands between; `None` if those between the patch and a
+    /// piece of the sky are not few.
+    between: Option<Box<[u32]>>,
 }
 
 impl PatchLight {
@@ -70,7 +71,7 @@ impl PatchLight {
     pub(crate) fn by(&self, patch: PatchId, place: DVec3, chosen: impl Fn(u32) -> bool) -> Direct {
         let Outlook { normal, prospects, .. } = &self.outlooks[patch.index()];
         let shine = |prospect: &Prospect| {
-            let among = (prospect.between.len() <= FEW).then_some(&*prospect.between);
+            let among = prospect.between.as_deref().filter(|between| between.len() <= FEW);
             let lamp = &self.lamps.areas[prospect.lamp as usize];
             lamp.shine((&self.occluders, among), (place, *normal), self.lamps.rows)
         };
@@ -83,14 +84,16 @@ impl PatchLight {
     }
 
     /// Segments in the plane of a patch on which its irradiance by polygons may have a kink or a bend;
-    /// they may reach beyond the patch.
+    /// they may reach beyond the patch. The sky makes none: its pieces have no borders that could be seen.
     pub fn lines(&self, patch: PatchId) -> Vec<Line> {
         let Outlook { corners, normal, prospects } = &self.outlooks[patch.index()];
         let receiver = Facet::new(corners, *normal);
         let mut lines = Vec::new();
-        for Prospect { lamp, between } in prospects {
-            let polygons = between.iter().map(|&number| self.occluders.corners(number));
-            lines.extend(self.lamps.areas[*lamp as usize].lines((*lamp, receiver), polygons));
+        for Prospect { lamp: number, between } in prospects {
+            let lamp = &self.lamps.areas[*number as usize];
+            let between = between.iter().flatten().filter(|_| !lamp.glow.is_sky());
+            let polygons = between.map(|&occluder| self.occluders.corners(occluder));
+            lines.extend(lamp.lines((*number, receiver), polygons));
         }
         lines
     }
@@ -102,7 +105,13 @@ impl Outlook {
         let prospect = |(number, lamp): (usize, &AreaLamp)| {
             let above = lamp.above(receiver)?;
             let source = Facet { corners: &above, plane: lamp.front };
-            let between = occluders.numbers_between(source, receiver).collect();
+            let between = occluders.numbers_between(source, receiver);
+            let between = if lamp.glow.is_sky() {
+                let few: Vec<u32> = between.take(FEW + 1).collect();
+                (few.len() <= FEW).then(|| few.into_boxed_slice())
+            } else {
+                Some(between.collect())
+            };
             Some(Prospect { lamp: number as u32, between })
         };
         let prospects = lamps.areas.iter().enumerate().filter_map(prospect).collect();

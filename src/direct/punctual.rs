@@ -1,8 +1,8 @@
 //! Lights without a surface.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
-use crate::colour::Rgb;
+use crate::colour::{LUMENS_PER_WATT, Rgb};
 use crate::scene::Light;
 
 /// Where the light of a punctual light comes from, as seen from a place.
@@ -19,6 +19,14 @@ pub(super) enum Source {
 /// `KHR_lights_punctual` recommends, with the square of a linear ramp over the cosine of the angle.
 pub(super) fn irradiance(light: &Light, place: DVec3, normal: DVec3) -> Option<(Rgb, Source)> {
     let (irradiance, from) = match *light {
+        Light::Luminaire { position, ref photometry, turn } => {
+            let away = (place - position).normalize_or_zero();
+            let candela = photometry.candela(DQuat::from_rotation_y(-turn) * away);
+            let falloff = falloff(position - place, normal, None);
+            (Rgb::splat(candela / LUMENS_PER_WATT * falloff), Source::Position(position))
+        }
+        // Not of a point: it is among the areas.
+        Light::Sky { .. } => return None,
         Light::Point { position, intensity, range } => {
             (intensity * falloff(position - place, normal, range), Source::Position(position))
         }

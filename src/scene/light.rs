@@ -1,8 +1,11 @@
 //! Lights without a surface.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
-use crate::colour::Rgb;
+use super::photometry::Photometry;
+use crate::colour::{LUMENS_PER_WATT, Rgb};
 
 /// A light from a point or from infinitely far, in radiometric units
 /// (files give candela and lux; see [`crate::colour::LUMENS_PER_WATT`]).
@@ -39,4 +42,72 @@ pub enum Light {
         /// Irradiance of a surface that faces it, W/m².
         irradiance: Rgb,
     },
+    /// Shines as a measured luminaire does, aimed down (-Y).
+    Luminaire {
+        /// Where it is, m.
+        position: DVec3,
+        /// What it sends where.
+        photometry: Arc<Photometry>,
+        /// Angle from +X to its horizontal angle 0, radians, counter-clockwise seen from above.
+        turn: f64,
+    },
+    /// Shines from everywhere above the horizon; Y is up.
+    Sky {
+        /// How bright it is where.
+        sky: Sky,
+        /// Irradiance of a horizontal place that sees all of it, W/m².
+        irradiance: Rgb,
+    },
+}
+
+/// How the radiance of a sky depends on the elevation γ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sky {
+    /// L = E / π everywhere.
+    Uniform,
+    /// The CIE standard overcast sky, L = Lz (1 + 2 sin γ) / 3 with Lz = 9 E / (7 π) at the zenith
+    /// ([Moon and Spencer 1942]; ISO 15469, type 16).
+    ///
+    /// [Moon and Spencer 1942]: https://doi.org/10.1364/JOSA.32.000706
+    Overcast,
+}
+
+/// Illuminance of a plane that faces the sun outside of the atmosphere, lx ([IES 1984], equation 5).
+///
+/// [IES 1984]: https://doi.org/10.1080/00994480.1984.10748791
+const SUN_OUTSIDE: f64 = 127_500.0;
+
+/// Extinction of a clear atmosphere by air mass (the same).
+const CLEAR_AIR: f64 = 0.21;
+
+/// Illuminance by an overcast sky on the ground, lx: so usual in daylight design that a daylight factor
+/// in per cent is a hundredth of the lux.
+pub const DESIGN_SKY: f64 = 10_000.0;
+
+/// Illuminance of a plane that faces the sun through clear air, lx: 127 500 exp(-0.21 / sin elevation),
+/// as in [IES 1984]; `elevation` in degrees. None at or below the horizon.
+///
+/// [IES 1984]: https://doi.org/10.1080/00994480.1984.10748791
+pub fn clear_sun(elevation: f64) -> f64 {
+    let sine = elevation.to_radians().sin();
+    if sine > 0.0 { SUN_OUTSIDE * (-CLEAR_AIR / sine).exp() } else { 0.0 }
+}
+
+impl Light {
+    /// A sun at an `azimuth`, degrees clockwise from north (-Z; east is +X), and an `elevation` over the
+    /// horizon, degrees, with this illuminance of a plane that faces it, lx.
+    pub fn sun(azimuth: f64, elevation: f64, lux: f64) -> Self {
+        let (azimuth, elevation) = (azimuth.to_radians(), elevation.to_radians());
+        let flat = DVec3::new(azimuth.sin(), 0.0, -azimuth.cos()) * elevation.cos();
+        let towards = flat + DVec3::Y * elevation.sin();
+        Self::Directional {
+            direction: -towards.normalize_or(DVec3::Y),
+            irradiance: Rgb::splat(lux / LUMENS_PER_WATT),
+        }
+    }
+
+    /// A white sky with this illuminance of an open horizontal plane, lx.
+    pub fn sky(sky: Sky, lux: f64) -> Self {
+        Self::Sky { sky, irradiance: Rgb::splat(lux / LUMENS_PER_WATT) }
+    }
 }

@@ -68,7 +68,7 @@ pub(crate) fn tamed(colour: Rgb, limit: f64) -> Rgb {
 }
 
 /// Brings reflectance into 0..=[`MAX_REFLECTANCE`] and emission into 0..=[`MAX_RADIANCE`].
-fn limit_materials(scene: &mut Scene) {
+pub(crate) fn limit_materials(scene: &mut Scene) {
     let (mut bright, mut wrong) = (Vec::new(), Vec::new());
     for material in &mut scene.materials {
         if material.reflectance.max_element() > MAX_REFLECTANCE {

@@ -3,14 +3,19 @@
 //! Nothing downstream asks where a value came from: positions are metres with Y up, colours are
 //! linear, emission is radiance, lights are in watts, texture coordinates have their transforms applied.
 
+mod adding;
 mod camera;
 mod corners;
 mod gltf;
+mod ies;
 mod light;
 mod load;
 mod material;
+mod names;
 mod notes;
 mod obj;
+mod overrides;
+mod photometry;
 mod polygon;
 mod repair;
 mod texture;
@@ -20,10 +25,12 @@ use smallvec::SmallVec;
 
 use crate::colour::Rgb;
 
+pub use adding::{Amount, AreaLight};
 pub use camera::Camera;
-pub use light::Light;
+pub use light::{DESIGN_SKY, Light, Sky, clear_sun};
 pub use load::load;
 pub use material::{MAX_REFLECTANCE, Material, Texture};
+pub use photometry::Photometry;
 pub(crate) use polygon::area_vector;
 pub(crate) use texture::decode;
 

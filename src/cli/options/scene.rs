@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use radiosity::scene::LoadOptions;
+use radiosity::{Error, Result, Scene, load};
 
+use super::lights::{HINT, LightOptions};
 use super::values;
 
 /// The scene and what its file leaves open.
@@ -27,6 +29,9 @@ pub(crate) struct SceneOptions {
     #[arg(long, value_name = "WHEN", value_enum, default_value_t = TwoSided::Auto)]
     #[arg(help_heading = "Reading")]
     two_sided: TwoSided,
+
+    #[command(flatten)]
+    lights: LightOptions,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -37,7 +42,24 @@ enum TwoSided {
 }
 
 impl SceneOptions {
-    pub(crate) fn load_options(&self) -> LoadOptions {
+    /// The scene, with what is added to it.
+    pub(crate) fn load(&self) -> Result<Scene> {
+        let mut scene = load(&self.path, &self.load_options())?;
+        self.lights.apply(&mut scene)?;
+        Ok(scene)
+    }
+
+    /// The same, if there is light in it.
+    pub(crate) fn load_lit(&self) -> Result<Scene> {
+        let scene = self.load()?;
+        if scene.is_lit() {
+            return Ok(scene);
+        }
+        let path = self.path.display();
+        Err(Error::Scene(format!("{path}: nothing in the scene emits light; {HINT}")))
+    }
+
+    fn load_options(&self) -> LoadOptions {
         let two_sided = match self.two_sided {
             TwoSided::Auto => None,
             TwoSided::On => Some(true),

@@ -1,0 +1,98 @@
+//! The sky: a box of polygons far beyond the scene, and their light in closed form.
+//!
+//! As polygons, pieces of a sky are cut by what hides them like any lamp, so that the light of a window is exact.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::{AreaLamp, Glow};
+use crate::colour::Rgb;
+use crate::scene::Sky;
+use crate::surface::Surfaces;
+use crate::visibility::{HalfSpace, Polygon};
+
+/// Half the width of the box, in extents of the scene: the horizon is off by less than 1e-4 radians.
+const FAR: f64 = 1e4;
+
+/// The pieces of a sky with this irradiance of an open horizontal place, W/m²: 12 squares, four overhead and
+/// two in each direction.
+///
+/// They end at the height of the scene's top, so that nothing that faces down sees them.
+pub(super) fn lamps(surfaces: &Surfaces, sky: Sky, irradiance: Rgb) -> Vec<AreaLamp> {
+    let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let join = |(low, high): (DVec3, DVec3), (a, b): (DVec3, DVec3)| (low.min(a), high.max(b));
+    let (low, high) = surfaces.list.iter().map(super::Surface::bounds).fold(empty, join);
+    if !(low.is_finite() && high.is_finite()) {
+        return Vec::new();
+    }
+    let (centre, size) = (low.midpoint(high).with_y(high.y), FAR * surfaces.extent);
+    let (exitance, glow) = match sky {
+        Sky::Uniform => (irradiance, Glow::Even),
+        // E = 7/9 π Lz.
+        Sky::Overcast => (irradiance * 9.0 / 7.0, Glow::Overcast),
+    };
+    let lamp = |corners: [DVec3; 4]| {
+        let corners: Polygon = corners.iter().map(|&corner| centre + corner * size).collect();
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
+        AreaLamp { front: HalfSpace::new(corners[0], normal), corners, exitance, glow }
+    };
+    squares().map(lamp).collect()
+}
+
+/// The squares of a box of height 1 around the origin, without a bottom, facing inward.
+fn squares() -> impl Iterator<Item = [DVec3; 4]> {
+    [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)].into_iter().flat_map(|(x, z)| {
+        let (out, along) = (DVec3::new(x, 0.0, z), DVec3::new(-z, 0.0, x));
+        let wall = |from: f64| {
+            let (a, b) = (out + along * from, out + along * (from + 1.0));
+            [a, b, b + DVec3::Y, a + DVec3::Y]
+        };
+        let top = [DVec3::Y, DVec3::Y + out, DVec3::Y + along + out, DVec3::Y + along];
+        [wall(-1.0), wall(0.0), top]
+    })
+}
+
+/// Irradiance by the part of an overcast sky that is seen in a polygon, as a share of π Lz; the polygon is above
+/// the horizon of a place with unit `normal`.
+///
+/// ∫ (1 + 2 sin γ)/3 cos θ dω = (π F + 2 ∫ (Y·ω)(n·ω) dω)/3, the second by the irradiance tensor of rank two,
+/// 3 Y·T·n = (Y·n) Ω - Σₖ (n·mₖ) Y·∫ω ds over the edges with outward normals mₖ ([Arvo 1995]).
+///
+/// [Arvo 1995]: https://doi.org/10.1145/218380.218467
+pub(super) fn overcast(
+    (place, normal): (DVec3, DVec3),
+    polygon: &[DVec3],
+    form_factor: f64,
+) -> f64 {
+    let rays: Polygon = polygon.iter().map(|&p| (p - place).normalize_or_zero()).collect();
+    let middle = rays.iter().sum::<DVec3>();
+    let mut sum = normal.y * solid_angle(&rays);
+    for (k, &a) in rays.iter().enumerate() {
+        let b = rays[(k + 1) % rays.len()];
+        let cross = a.cross(b);
+        let Some(side) = cross.try_normalize() else { continue };
+        let outward = if side.dot(middle) > 0.0 { -side } else { side };
+        // ∫ω ds along the arc: (a + b) tan(Θ/2).
+        let arc = (a + b) * (cross.length() / (1.0 + a.dot(b)).max(f64::MIN_POSITIVE));
+        sum -= normal.dot(outward) * arc.y;
+    }
+    ((form_factor + 2.0 * sum / (3.0 * PI)) / 3.0).max(0.0)
+}
+
+/// Solid angle of a convex spherical polygon, sr ([Van Oosterom and Strackee 1983]).
+///
+/// [Van Oosterom and Strackee 1983]: https://doi.org/10.1109/TBME.1983.325207
+fn solid_angle(rays: &[DVec3]) -> f64 {
+    let triangle = |pair: &[DVec3]| {
+        let (a, b, c) = (rays[0], pair[0], pair[1]);
+        let below = 1.0 + a.dot(b) + b.dot(c) + c.dot(a);
+        2.0 * a.dot(b.cross(c)).abs().atan2(below)
+    };
+    rays.windows(2).skip(1).map(triangle).sum()
+}
+
+/// Radiance of an overcast sky in a unit direction, as a share of that at the zenith.
+pub(super) fn overcast_radiance(direction: DVec3) -> f64 {
+    (1.0 + 2.0 * direction.y.max(0.0)) / 3.0
+}

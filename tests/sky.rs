@@ -1,0 +1,151 @@
+//! Light of the sky, the sun and luminaires against closed forms.
+
+mod common;
+
+use std::f64::consts::PI;
+
+use common::{Stage, coarse, solve};
+use glam::DVec3;
+use radiosity::colour::LUMENS_PER_WATT;
+use radiosity::direct::Lamps;
+use radiosity::mesh::Mesh;
+use radiosity::scene::{Light, Sky, clear_sun};
+use radiosity::visibility::Occluders;
+use radiosity::{Scene, surfaces_of};
+
+const SKIES: [Sky; 2] = [Sky::Uniform, Sky::Overcast];
+
+/// Illuminance straight from the lights of a scene, lx, with and without what hides them.
+fn lux(scene: &Scene, place: DVec3, normal: DVec3) -> [f64; 2] {
+    let surfaces = surfaces_of(scene);
+    let lamps = Lamps::new(&surfaces, &Mesh::new(&surfaces, &coarse()));
+    let direct = lamps.shine(&Occluders::new(&surfaces), place, normal);
+    [direct.irradiance.x, direct.unoccluded.x].map(|watts| watts * LUMENS_PER_WATT)
+}
+
+/// A floor of 4 m × 4 m under a sky of 1000 lx.
+fn floor(sky: Sky) -> Stage {
+    let mut stage = Stage::default();
+    let grey = stage.material(0.3, 0.0);
+    let corners = [(0.0, 0.0), (0.0, 4.0), (4.0, 4.0), (4.0, 0.0)];
+    stage.polygon(grey, &corners.map(|(x, z)| DVec3::new(x, 0.0, z)));
+    stage.scene.lights.push(Light::sky(sky, 1000.0));
+    stage
+}
+
+#[test]
+fn open_places_get_what_was_asked_for_whatever_they_face() {
+    for sky in SKIES {
+        let scene = floor(sky).scene;
+        for tilt in [0.0_f64, 0.3, 1.0, PI / 2.0, 2.0] {
+            let normal = DVec3::new(tilt.sin() * 0.6, tilt.cos(), tilt.sin() * 0.8);
+            // Of a plane tilted by β, a uniform sky fills (1 + cos β)/2; of an overcast one by quadrature.
+            let expected = match sky {
+                Sky::Uniform => 500.0 * (1.0 + tilt.cos()),
+                Sky::Overcast => by_quadrature(normal),
+            };
+            let [found, _] = lux(&scene, DVec3::new(2.0, 0.0, 2.0), normal);
+            assert!((found - expected).abs() < 1e-3 * 1000.0, "{sky:?} {tilt}: {found} {expected}");
+        }
+    }
+}
+
+/// Illuminance by an overcast sky of 1000 lx on a plane with this normal.
+fn by_quadrature(normal: DVec3) -> f64 {
+    let steps = 1000;
+    let mut sum = 0.0;
+    for i in 0..steps {
+        let y = (f64::from(i) + 0.5) / f64::from(steps);
+        for j in 0..steps {
+            let (sin, cos) = ((f64::from(j) + 0.5) / f64::from(steps) * 2.0 * PI).sin_cos();
+            let flat = (1.0 - y * y).sqrt();
+            let cosine = DVec3::new(flat * cos, y, flat * sin).dot(normal).max(0.0);
+            sum += (1.0 + 2.0 * y) / 3.0 * cosine;
+        }
+    }
+    let zenith = 1000.0 * 9.0 / (7.0 * PI);
+    zenith * sum * 2.0 * PI / f64::from(steps * steps)
+}
+
+/// A closed room of 4 × 3 × 5 m with a window from corner to corner of a rectangle in the wall at low z.
+fn room_with_window(sky: Sky, low: [f64; 2], high: [f64; 2]) -> Scene {
+    let mut stage = Stage::default();
+    let wall = stage.material(0.5, 0.0);
+    let (near, far) = (DVec3::ZERO, DVec3::new(4.0, 3.0, 5.0));
+    for side in [0, 1, 2, 3, 5] {
+        stage.wall(wall, (near, far), side);
+    }
+    let mut part = |[x0, y0]: [f64; 2], [x1, y1]: [f64; 2]| {
+        let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)];
+        stage.polygon(wall, &corners.map(|(x, y)| DVec3::new(x, y, 0.0)));
+    };
+    part([0.0, 0.0], [4.0, low[1]]);
+    part([0.0, high[1]], [4.0, 3.0]);
+    part([0.0, low[1]], [low[0], high[1]]);
+    part([high[0], low[1]], [4.0, high[1]]);
+    stage.scene.lights.push(Light::sky(sky, 1000.0));
+    stage.scene
+}
+
+/// ∫ L cos θ dω over a window, by squares of a millimetre or so.
+fn through_window(sky: Sky, place: DVec3, (low, high): ([f64; 2], [f64; 2])) -> f64 {
+    let steps = 400;
+    let size = [0, 1].map(|k| (high[k] - low[k]) / f64::from(steps));
+    let mut sum = 0.0;
+    for i in 0..steps {
+        for j in 0..steps {
+            let x = low[0] + size[0] * (f64::from(i) + 0.5);
+            let y = low[1] + size[1] * (f64::from(j) + 0.5);
+            let way = DVec3::new(x, y, 0.0) - place;
+            let square = way.length_squared();
+            let (up, out) = (way.y / square.sqrt(), -way.z / square.sqrt());
+            let radiance = match sky {
+                Sky::Uniform => 1000.0 / PI,
+                Sky::Overcast => 1000.0 * 9.0 / (7.0 * PI) * (1.0 + 2.0 * up) / 3.0,
+            };
+            // From the floor all of the window is above the horizon.
+            sum += radiance * up * out / square;
+        }
+    }
+    sum * size[0] * size[1]
+}
+
+#[test]
+fn a_window_lets_in_what_it_shows_of_the_sky() {
+    let window = ([1.0, 0.9], [3.2, 2.4]);
+    for sky in SKIES {
+        let scene = room_with_window(sky, window.0, window.1);
+        for place in [DVec3::new(2.0, 0.0, 1.0), DVec3::new(0.5, 0.0, 4.0)] {
+            let (expected, [found, _]) =
+                (through_window(sky, place, window), lux(&scene, place, DVec3::Y));
+            assert!((found / expected - 1.0).abs() < 1e-3, "{sky:?} {place}: {found} {expected}");
+        }
+        // Under a window's head, the ceiling sees no sky.
+        assert_eq!(lux(&scene, DVec3::new(2.0, 3.0, 1.0), DVec3::NEG_Y)[0], 0.0);
+    }
+}
+
+#[test]
+fn power_of_a_sky_is_what_arrives_of_it() {
+    let scene = room_with_window(Sky::Overcast, [1.0, 0.9], [3.2, 2.4]);
+    let energy = solve(&surfaces_of(&scene), &coarse()).energy;
+    assert!(energy.imbalance().abs() < 0.005 && energy.emitted.x > 0.0, "{energy:?}");
+    assert!(energy.escaped.x > 0.0, "some of it leaves by the window: {energy:?}");
+}
+
+#[test]
+fn the_sun_stands_where_its_angles_say() {
+    let direction = |azimuth, elevation| match Light::sun(azimuth, elevation, 1.0) {
+        Light::Directional { direction, .. } => direction,
+        light => panic!("{light:?}"),
+    };
+    assert!((direction(0.0, 0.0) - DVec3::Z).length() < 1e-12, "from the north");
+    assert!((direction(90.0, 0.0) - DVec3::NEG_X).length() < 1e-12, "from the east");
+    assert!((direction(180.0, 90.0) - DVec3::NEG_Y).length() < 1e-12, "from above");
+    assert!((clear_sun(90.0) - 127_500.0 * (-0.21_f64).exp()).abs() < 1e-6);
+    assert_eq!(clear_sun(-5.0), 0.0);
+    let mut scene = floor(Sky::Uniform).scene;
+    scene.lights = vec![Light::sun(120.0, 30.0, 50_000.0)];
+    let [found, _] = lux(&scene, DVec3::new(2.0, 0.0, 2.0), DVec3::Y);
+    assert!((found - 25_000.0).abs() < 1e-6, "{found}");
+}
