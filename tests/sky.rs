@@ -149,3 +149,26 @@ fn the_sun_stands_where_its_angles_say() {
     let [found, _] = lux(&scene, DVec3::new(2.0, 0.0, 2.0), DVec3::Y);
     assert!((found - 25_000.0).abs() < 1e-6, "{found}");
 }
+
+#[test]
+fn luminaires_hang_aimed_down_and_turn_counter_clockwise() {
+    let directory = tempfile::tempdir().expect("temporary directories can be made");
+    let path = directory.path().join("lamp.ies");
+    // Straight down 200 cd; at 45° from it 100 cd along its horizontal angle 0, none elsewhere.
+    let text = "TILT=NONE\n1 -1 1 3 5 1 2 0 0 0\n1 1 9\n0 45 90\n0 90 180 270 360\n\
+                200 100 0\n200 0 0\n200 0 0\n200 0 0\n200 100 0\n";
+    std::fs::write(&path, text).expect("temporary files can be written");
+    let east = DVec3::new(3.5, 0.0, 2.0);
+    let north = DVec3::new(2.0, 0.0, 0.5);
+    for (rotation, lit, dark) in [(0.0, east, north), (90.0, north, east)] {
+        let mut scene = floor(Sky::Uniform).scene;
+        scene.lights.clear();
+        scene.add_luminaire(&path, DVec3::new(2.0, 1.5, 2.0), rotation).expect("the file is right");
+        let found = |place| lux(&scene, place, DVec3::Y)[0];
+        assert!((found(DVec3::new(2.0, 0.0, 2.0)) - 200.0 / 2.25).abs() < 1e-9);
+        // I cos θ / d² at √2 times the height.
+        let expected = 100.0 * 0.5_f64.sqrt() / 4.5;
+        assert!((found(lit) - expected).abs() < 1e-6, "{rotation}: {} {expected}", found(lit));
+        assert!(found(dark) < 1e-6, "{rotation}: {}", found(dark));
+    }
+}

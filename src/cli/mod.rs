@@ -8,6 +8,7 @@ mod enclosure;
 mod facts;
 mod failure;
 mod form_factors;
+mod grid;
 mod info;
 mod interrupt;
 mod meter;

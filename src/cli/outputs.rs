@@ -9,7 +9,7 @@ pub(crate) fn check(
     input: &Path,
     meshes: &[PathBuf],
     pictures: &[PathBuf],
-    history: Option<&Path>,
+    tables: &[&Path],
 ) -> Result<()> {
     for path in meshes {
         refuse_input(input, path)?;
@@ -19,7 +19,7 @@ pub(crate) fn check(
         refuse_input(input, path)?;
         render::check_writable(path)?;
     }
-    if let Some(path) = history {
+    for path in tables {
         refuse_input(input, path)?;
         export::check_history(path)?;
     }

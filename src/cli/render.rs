@@ -43,7 +43,7 @@ Examples:
 
 impl Render {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        outputs::check(&self.path, &[], &self.output, None)?;
+        outputs::check(&self.path, &[], &self.output, &[])?;
         let views = self.picture.views(&self.output)?;
         self.picture.check_for_file()?;
         self.report.talk.use_threads()?;

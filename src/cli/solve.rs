@@ -1,6 +1,6 @@
 //! `radiosity solve`: from a scene to a lit mesh and its picture.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use radiosity::export::{self, Stamp};
@@ -10,6 +10,7 @@ use radiosity::tone::Exposure;
 use radiosity::{Error, Scene, Solution, reconstruct, solve_in_stages, surfaces_of};
 
 use super::failure::Failure;
+use super::grid::GridOptions;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
 use super::options::{
@@ -50,6 +51,9 @@ pub(crate) struct Solve {
     history: Option<PathBuf>,
 
     #[command(flatten)]
+    grid: GridOptions,
+
+    #[command(flatten)]
     page: PageOptions,
 
     #[command(flatten)]
@@ -75,6 +79,8 @@ Examples:
   radiosity solve room.glb -o room-lit.ply --image mesh.png --view wireframe --tolerance 1.5%
   radiosity solve kitchen.obj --image final.png --image mesh.png --view light,reason --final-gather
   radiosity solve scenes/office.obj --quality draft --html office.html --snapshots 1,2,24,100
+  radiosity solve bare-room.obj --emit 'lamp*=800lm' --sky cie-overcast --image lit.png
+  radiosity solve room.obj --ies spot.ies@2,2.6,3 --grid 0.75,0.5 --grid-csv desk.csv
   radiosity solve scenes/blocker.obj --uniform 0.1 --image uniform.png --eye 1,2,3 --target 0,0,0";
 
 impl Solve {
@@ -85,13 +91,14 @@ impl Solve {
         self.report.talk.use_threads()?;
         let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.report.talk);
-        if self.written().next().is_none() {
+        if self.written().next().is_none() && self.grid.grid.is_none() {
             meter.tell("nothing will be written; -o FILE.glb, --image FILE.png and --html FILE.html do that");
         }
 
         let (scene, camera) = self.read(&mut meter)?;
         meter.begin("surfaces");
         let surfaces = surfaces_of(&scene);
+        let places = self.grid.places(&surfaces)?;
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
         if self.report.talk.verbose > 0 {
             meter.tell(&settings_record.to_string());
@@ -118,6 +125,7 @@ impl Solve {
         if let Some(path) = &self.history {
             export::save_history(&solution.history, path)?;
         }
+        let grid = self.grid.read(&places, solved, &interrupt, &mut meter)?;
         let summary = Summary::new(&surfaces, &solution, &mesh);
         let account = Account {
             scene: &self.scene.path,
@@ -134,6 +142,7 @@ impl Solve {
         self.report_on(&Outcome {
             scene: self.scene.path.clone(),
             summary,
+            grid,
             settings: settings_record,
             seconds: meter.into_timings(),
             written: self.written().cloned().collect(),
@@ -153,7 +162,8 @@ impl Solve {
 
     /// Whether what is asked for can be written.
     fn check(&self) -> Result<(), Failure> {
-        outputs::check(&self.scene.path, &self.output, &self.image, self.history.as_deref())?;
+        let tables: Vec<&Path> = self.tables().map(PathBuf::as_path).collect();
+        outputs::check(&self.scene.path, &self.output, &self.image, &tables)?;
         self.page.check()?;
         self.picture.views(&self.image)?;
         Ok(())
@@ -162,7 +172,11 @@ impl Solve {
     /// The files to write.
     fn written(&self) -> impl Iterator<Item = &PathBuf> {
         let meshes_and_pictures = self.output.iter().chain(&self.image);
-        meshes_and_pictures.chain(&self.history).chain(&self.page.html)
+        meshes_and_pictures.chain(self.tables()).chain(&self.page.html)
+    }
+
+    fn tables(&self) -> impl Iterator<Item = &PathBuf> {
+        self.history.iter().chain(&self.grid.grid_csv)
     }
 
     fn report_on(&self, outcome: &Outcome) -> Result<(), Failure> {

@@ -10,6 +10,7 @@ use radiosity::solver::{Energy, Stop};
 use radiosity::{Solution, Surfaces};
 use serde::Serialize;
 
+use super::grid::GridFigures;
 use super::meter::Timing;
 use super::record::SettingsRecord;
 
@@ -57,6 +58,8 @@ pub(crate) struct Outcome {
     pub(crate) scene: PathBuf,
     #[serde(flatten)]
     pub(crate) summary: Summary,
+    /// Of the grid, if there is one.
+    pub(crate) grid: Option<GridFigures>,
     pub(crate) settings: SettingsRecord,
     pub(crate) seconds: Vec<Timing>,
     pub(crate) written: Vec<PathBuf>,
@@ -121,6 +124,9 @@ impl Display for Outcome {
         writeln!(f, "shots      {}", s.shots)?;
         writeln!(f, "hemicubes  patches {}, vertices {}", hemicubes.patches, hemicubes.vertices)?;
         write!(f, "{}", s.energy)?;
+        if let Some(grid) = &self.grid {
+            write!(f, "\n{grid}")?;
+        }
         if !self.written.is_empty() {
             let names: Vec<String> =
                 self.written.iter().map(|path| path.display().to_string()).collect();

@@ -23,8 +23,8 @@ pub fn save_history(steps: &[Step], path: &Path) -> Result<()> {
     file::replace(path, |out| write(steps, out))
 }
 
-/// Finds out before long work whether [`save_history`] could write to `path`; makes missing
-/// directories.
+/// Finds out before long work whether [`save_history`] or [`save_grid`](super::save_grid) could write to `path`;
+/// makes missing directories.
 ///
 /// # Errors
 /// When the ending is not `.csv` or no file can be made there.
@@ -33,7 +33,7 @@ pub fn check_history(path: &Path) -> Result<()> {
     file::probe(path)
 }
 
-fn check_ending(path: &Path) -> Result<()> {
+pub(super) fn check_ending(path: &Path) -> Result<()> {
     if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
         return Ok(());
     }

@@ -11,6 +11,7 @@
 
 mod factors;
 mod glb;
+mod grid;
 mod group;
 mod history;
 mod look;
@@ -27,6 +28,7 @@ use crate::tone::Exposure;
 
 pub use factors::{FactorPatch, FactorTable, check_writable_factors, save_factors};
 pub use glb::load_solved;
+pub use grid::save_grid;
 pub use history::{check_history, save_history};
 use look::Look;
 

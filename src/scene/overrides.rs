@@ -77,7 +77,7 @@ impl Scene {
                 self.emit_from(named, amount)?;
             }
             ("double_sided", &Value::Boolean(both)) => {
-                each(&|material| material.double_sided = both)
+                each(&|material| material.double_sided = both);
             }
             ("double_sided", _) => return Err("double_sided: write true or false".to_owned()),
             _ => {

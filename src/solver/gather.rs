@@ -10,12 +10,13 @@ use glam::DVec3;
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
-use super::direct_pass::World;
 use super::sources::{Piece, Sources};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::{DeltaFactors, Hemicube, Sight, Targets, turn};
 use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
+use crate::surface::Surfaces;
+use crate::visibility::Occluders;
 
 /// Cells along the edge of the hemicubes over vertices: they measure visibility only, and vertices
 /// are many.
@@ -43,7 +44,8 @@ struct Gathered {
 
 /// Gathers indirect light at points.
 pub(super) struct Gatherer<'a> {
-    world: World<'a>,
+    surfaces: &'a Surfaces,
+    occluders: &'a Occluders,
     sources: Sources,
     delta: DeltaFactors,
     /// Elements whose parts may change a result by more than this, W/m², are taken in parts.
@@ -57,9 +59,22 @@ pub(super) struct Gatherer<'a> {
 }
 
 impl<'a> Gatherer<'a> {
-    pub(super) fn new(world: World<'a>, sources: Sources, fine: f64) -> Self {
+    pub(super) fn new(
+        (surfaces, occluders): (&'a Surfaces, &'a Occluders),
+        sources: Sources,
+        fine: f64,
+    ) -> Self {
         let delta = DeltaFactors::new(RESOLUTION);
-        Self { world, sources, delta, fine, views: Vec::new(), gathered: 0, factors: 0 }
+        Self {
+            surfaces,
+            occluders,
+            sources,
+            delta,
+            fine,
+            views: Vec::new(),
+            gathered: 0,
+            factors: 0,
+        }
     }
 
     /// Evaluates indirect light at those of the vertices that lack it.
@@ -72,7 +87,7 @@ impl<'a> Gatherer<'a> {
         let lit: Vec<Gathered> = dark
             .par_iter()
             .map_init(
-                || Hemicube::new(&self.delta, &targets, self.world.occluders),
+                || Hemicube::new(&self.delta, &targets, self.occluders),
                 |hemicube, &vertex| self.gather(mesh, hemicube, vertex),
             )
             .collect();
@@ -102,11 +117,36 @@ impl<'a> Gatherer<'a> {
         }
     }
 
+    /// The delta factors of the hemicubes that it looks through.
+    pub(super) fn delta(&self) -> &DeltaFactors {
+        &self.delta
+    }
+
+    /// Irradiance of any place with a unit normal by all reflected light, W/m².
+    pub(super) fn at(
+        &self,
+        mesh: &Mesh,
+        hemicube: &mut Hemicube<'_>,
+        place: (DVec3, DVec3),
+        turn: f64,
+    ) -> Rgb {
+        self.look(mesh, hemicube, place, turn).irradiance
+    }
+
     /// Irradiance of a vertex by all reflected light, and what it saw.
     fn gather(&self, mesh: &Mesh, hemicube: &mut Hemicube<'_>, vertex: VertexId) -> Gathered {
-        let site = mesh[vertex].site;
-        let normal = self.world.surfaces.list[mesh[vertex].surface as usize].plane.normal;
-        let hemicube = hemicube.look((site, normal), turn(vertex.index() as f64));
+        let normal = self.surfaces.list[mesh[vertex].surface as usize].plane.normal;
+        self.look(mesh, hemicube, (mesh[vertex].site, normal), turn(vertex.index() as f64))
+    }
+
+    fn look(
+        &self,
+        mesh: &Mesh,
+        hemicube: &mut Hemicube<'_>,
+        (site, normal): (DVec3, DVec3),
+        turn: f64,
+    ) -> Gathered {
+        let hemicube = hemicube.look((site, normal), turn);
         let (mut irradiance, mut factors) = (Rgb::ZERO, 0);
         let mut view = View::new();
         for sight in hemicube.sights().filter(|sight| sight.front) {
@@ -128,7 +168,7 @@ impl<'a> Gatherer<'a> {
         (site, normal): (DVec3, DVec3),
         sight: Sight,
     ) -> (Rgb, u64) {
-        let surfaces = self.world.surfaces;
+        let surfaces = self.surfaces;
         let plane = &surfaces.list[mesh[sight.patch].surface as usize].plane;
         let (mut irradiance, mut factors) = (Rgb::ZERO, 0);
         let mut open: SmallVec<[ElementId; 32]> = SmallVec::new();

@@ -9,12 +9,14 @@ mod element_light;
 mod energy;
 mod gather;
 mod indirect_pass;
+mod probe;
 mod progressive;
 pub mod relaxation;
 mod sources;
 mod stages;
 mod transport;
 mod work;
+mod work_plane;
 
 use std::ops::ControlFlow;
 
@@ -29,7 +31,9 @@ use crate::visibility::Occluders;
 
 pub use element_light::ElementLight;
 pub use energy::Energy;
+pub use probe::{Reading, read};
 pub use work::Work;
+pub use work_plane::{Evenness, WorkPlane};
 
 use direct_pass::World;
 use gather::Gatherer;
@@ -121,7 +125,7 @@ impl Observer<'_> {
 
 /// What is said of a scene without light.
 const DARK: &str = "nothing in the scene emits light; give a material an emission \
-                    (Ke in an MTL file, emissiveFactor in glTF) or the file a light";
+                    (Ke in an MTL file, emissiveFactor in glTF) or add a light";
 
 /// Gathering resolves differences down to this share of the tolerated error.
 const GATHER_SHARE: f64 = 0.13;
@@ -203,7 +207,8 @@ fn gather(
 ) -> (usize, u64) {
     let fine = GATHER_SHARE * settings.tolerance * mean_radiosity(mesh);
     let oracle = Oracle::of_reflected_light(settings, world.surfaces.extent, mesh);
-    let mut gatherer = Gatherer::new(world, exchange.sources(mesh), fine);
+    let mut gatherer =
+        Gatherer::new((world.surfaces, world.occluders), exchange.sources(mesh), fine);
     for round in 1..=ROUNDS {
         indirect_pass::refine((settings, &oracle), &mut gatherer, mesh, observer);
         direct_pass::light_leaves(world, mesh);

@@ -5,6 +5,7 @@ mod config;
 mod form_factors;
 #[cfg(unix)]
 mod interrupt;
+mod lights;
 mod page;
 mod solve;
 mod usage;

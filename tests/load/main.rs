@@ -1,7 +1,9 @@
 //! What scene files say is what scenes hold, and no file can break the reader.
 
 mod asset;
+mod changed;
 mod gltf;
+mod ies;
 mod mutated;
 mod obj;
 mod refused;

@@ -1,0 +1,85 @@
+//! Light at places that are no vertices, in mid-air even: what an illuminance meter would show there.
+
+use std::ops::ControlFlow;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::gather::Gatherer;
+use super::sources::Sources;
+use super::{GATHER_SHARE, Solution};
+use crate::colour::{LUMENS_PER_WATT, Rgb, luminance};
+use crate::direct::Lamps;
+use crate::form_factor::hemicube::{Hemicube, Targets, turn};
+use crate::refine::mean_radiosity;
+use crate::settings::Settings;
+use crate::surface::Surfaces;
+use crate::visibility::Occluders;
+
+/// Places between two looks at the observer.
+const BATCH: usize = 256;
+
+/// What arrives at a place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// Where, m.
+    pub place: DVec3,
+    /// Unit normal of the plane that it arrives on.
+    pub normal: DVec3,
+    /// Irradiance straight from emitters, W/m².
+    pub direct: Rgb,
+    /// Irradiance by reflected light, W/m².
+    pub indirect: Rgb,
+}
+
+impl Reading {
+    /// Illuminance straight from emitters, lx.
+    pub fn direct_lux(&self) -> f64 {
+        luminance(self.direct) * LUMENS_PER_WATT
+    }
+
+    /// Illuminance by reflected light, lx.
+    pub fn indirect_lux(&self) -> f64 {
+        luminance(self.indirect) * LUMENS_PER_WATT
+    }
+
+    /// Illuminance, lx.
+    pub fn lux(&self) -> f64 {
+        self.direct_lux() + self.indirect_lux()
+    }
+}
+
+/// Reads a solution at places with unit normals: direct light exactly, reflected light by a hemicube over each.
+///
+/// `settings` are those of the solution. `observe` is told of the share done; when it breaks off, the rest is
+/// left out.
+pub fn read(
+    surfaces: &Surfaces,
+    (settings, solution): (&Settings, &Solution),
+    places: &[(DVec3, DVec3)],
+    mut observe: impl FnMut(f64) -> ControlFlow<()>,
+) -> Vec<Reading> {
+    let (mesh, occluders) = (&solution.mesh, Occluders::new(surfaces));
+    let lamps = Lamps::new(surfaces, mesh).seen_by(settings.shadow_rays);
+    let fine = GATHER_SHARE * settings.tolerance * mean_radiosity(mesh);
+    let gatherer = Gatherer::new((surfaces, &occluders), Sources::of_vertices(mesh), fine);
+    let targets = Targets::new(&mesh.patches);
+    let mut readings: Vec<Reading> = Vec::new();
+    while readings.len() < places.len() {
+        if observe(readings.len() as f64 / places.len() as f64).is_break() {
+            break;
+        }
+        let first = readings.len();
+        let batch = &places[first..places.len().min(first + BATCH)];
+        readings.par_extend(batch.par_iter().enumerate().map_init(
+            || Hemicube::new(gatherer.delta(), &targets, &occluders),
+            |hemicube, (k, &(place, normal))| Reading {
+                place,
+                normal,
+                direct: lamps.shine(&occluders, place, normal).irradiance,
+                indirect: gatherer.at(mesh, hemicube, (place, normal), turn((first + k) as f64)),
+            },
+        ));
+    }
+    readings
+}

@@ -1,0 +1,100 @@
+//! Light for files that have none, and illuminance on a work plane.
+
+use crate::{COARSE, Place, scene};
+
+/// A closed room of 4 m × 3 m × 5 m without any light, its ceiling of a material of its own.
+const ROOM: &str = "mtllib room.mtl\n\
+    v 0 0 0\nv 4 0 0\nv 4 0 5\nv 0 0 5\nv 0 3 0\nv 4 3 0\nv 4 3 5\nv 0 3 5\n\
+    usemtl wall\nf 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n\
+    usemtl panel\nf 5 6 7 8\n";
+
+const IES: &str = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 60\n0 45 90\n0\n800 400 0\n";
+
+fn room() -> Place {
+    let place = Place::new();
+    place.write("room.obj", ROOM);
+    place.write("room.mtl", "newmtl wall\nKd 0.5\nnewmtl panel\nKd 0.5\n");
+    place.write("spot.ies", IES);
+    place
+}
+
+fn solve<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    [&["solve", "room.obj", "--json", "-o", "a.glb"], &COARSE[..], more].concat()
+}
+
+#[test]
+fn a_dark_file_says_how_to_light_it_and_each_way_does() {
+    let place = room();
+    place.run(&solve(&[])).refused(1, &["emits light", "--emit", "--sky"]);
+    place.write("m.toml", "[panel]\nemission = 5\n");
+    for more in [
+        &["--emit", "pan*=5"][..],
+        &["--materials", "m.toml"],
+        &["--area-light", "2,2.9,2.5=1.2x0.3=3000lm"],
+        &["--area-light", "0.1,1,2.5=1x1=5,4,3=1,0,0"],
+        &["--point-light", "2,2,2=800lm"],
+        &["--ies", "spot.ies@2,2.9,2.5,90"],
+    ] {
+        let json = place.run(&solve(more)).done().json();
+        let energy = &json["energy"];
+        assert!(energy["absorbed"][0].as_f64() > Some(0.1), "{more:?} {json}");
+        assert!(energy["imbalance"].as_f64().is_some_and(|x| x.abs() < 0.02), "{more:?} {json}");
+    }
+    // It is a closed room.
+    for more in [["--sun", "135,40"], ["--sky", "cie-overcast"]] {
+        place.run(&solve(&more)).refused(1, &["all is black", "--two-sided"]);
+    }
+}
+
+#[test]
+fn lumens_asked_for_are_emitted() {
+    let place = room();
+    let json = place.run(&solve(&["--emit", "panel=6830lm"])).done().json();
+    assert!(json["energy"]["emitted"][0].as_f64().is_some_and(|x| (x - 10.0).abs() < 1e-6), "{json}");
+    let info = ["info", "room.obj", "--area-light", "2,2.9,2.5=1x1=683lm", "--sky", "uniform,6830"];
+    let stdout = place.run(&info).done().stdout;
+    assert!(stdout.contains("area light 1: 1, 1, 1 W, 683.0000 lm"), "{stdout}");
+    assert!(stdout.contains("sky light: 10, 10, 10 W/m²"), "{stdout}");
+}
+
+#[test]
+fn options_for_light_may_be_in_a_configuration() {
+    let place = room();
+    place.write(
+        "r.toml",
+        "emit = [\"panel=100lm\"]\ngrid = [0.75, 1]\ngrid-csv = \"g.csv\"\nsky = \"uniform,5000\"\n",
+    );
+    let json = place.run(&solve(&["--config", "r.toml"])).done().json();
+    assert_eq!(json["grid"]["places"], 20);
+    let csv = std::fs::read_to_string(place.path("g.csv")).expect("the grid is written");
+    let mut lines = csv.lines();
+    assert_eq!(lines.next(), Some("x,y,z,nx,ny,nz,E_lux,direct_lux,indirect_lux"));
+    let rows: Vec<Vec<f64>> =
+        lines.map(|row| row.split(',').map(|x| x.parse().expect("a number")).collect()).collect();
+    assert_eq!(rows.len(), 20);
+    assert!(rows.iter().all(|row| (row[6] - row[7] - row[8]).abs() < 1e-5), "{csv}");
+    let mean = rows.iter().map(|row| row[6]).sum::<f64>() / 20.0;
+    let told = json["grid"]["mean"].as_f64().expect("a number");
+    assert!((mean / told - 1.0).abs() < 1e-4 && mean > 1.0, "{mean} {told}");
+}
+
+#[test]
+fn wrong_lights_are_refused_before_any_work() {
+    let place = room();
+    for (more, words) in [
+        (["--emit", "pane=5"], ["emit: no material \"pane\"", "there are \"panel\", \"wall\""]),
+        (["--emit", "panel"], ["--emit", "MATERIAL=AMOUNT"]),
+        (["--area-light", "1,2,3"], ["--area-light", "X,Y,Z=WIDTHxDEPTH=AMOUNT"]),
+        (["--sun", "0,-10"], ["--sun", "AZIMUTH,ELEVATION"]),
+        (["--sky", "clear"], ["--sky", "cie-overcast"]),
+        (["--grid", "0.75"], ["--grid", "HEIGHT,SPACING"]),
+        (["--grid-csv", "a.csv"], ["--grid <HEIGHT,SPACING>", ""]),
+    ] {
+        place.run(&solve(&more)).refused(2, &words);
+    }
+    let lit = ["--emit", "panel=5", "--grid"];
+    place.run(&solve(&[&lit[..], &["9,1"]].concat())).refused(2, &["grid: 9 m is not between"]);
+    place.run(&solve(&["--ies", "room.mtl@0,0,0"])).refused(1, &["room.mtl:4", "TILT="]);
+    let dark = scene("cornell-box.obj");
+    place.run(&["info", &dark, "--materials", "none.toml"]).refused(1, &["none.toml"]);
+}
