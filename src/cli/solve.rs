@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use radiosity::colour::Rgb;
 use radiosity::export::{self, Stamp};
+use radiosity::mesh::Direct;
 use radiosity::render::{self, Solved, Subject};
 use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
@@ -232,9 +234,17 @@ impl Solve {
     }
 }
 
+/// Of the light that could arrive, a smaller share is rounding: what a sky sends through the edges of a closed room.
+const ROUNDING: f64 = 1e-9;
+
 /// Whether any light arrives at all.
 fn refuse_darkness(solution: &Solution) -> Result<(), Error> {
-    if solution.energy.absorbed.max_element() > 0.0 {
+    let direct = || solution.mesh.vertices.iter().filter_map(|vertex| vertex.direct);
+    let most = |light: &dyn Fn(Direct) -> Rgb| {
+        direct().map(|direct| light(direct).max_element()).fold(0.0, f64::max)
+    };
+    let arriving = most(&|direct| direct.irradiance);
+    if arriving > ROUNDING * most(&|direct| direct.unoccluded) {
         return Ok(());
     }
     Err(Error::Scene(format!(

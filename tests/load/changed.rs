@@ -107,7 +107,7 @@ fn wrong_lines_of_a_file_of_materials_are_named() {
         ("[\"lamp 1\"]\n\nemision = 1\n", ["m.toml:3", "unknown key \"emision\""]),
         ("[\"lamp 1\"]\nreflectance = 1.5\n", ["m.toml:2", "0 to 1"]),
         ("[\"lamp 1\"]\nreflectance = [1, 2]\n", ["m.toml:2", "three"]),
-        ("[\"lamp 1\"]\nemission = \"800\nlm\"\n", ["m.toml:2", ""]),
+        ("[\"lamp 1\"]\nemission = \"800l\"\n", ["m.toml:2", "emission"]),
         ("[\"lamp 1\"]\nemission = -1\n", ["m.toml:2", "emission"]),
         ("[\"lamp 1\"]\ndouble_sided = 1\n", ["m.toml:2", "true or false"]),
         ("[none]\nemission = \"1lm\"\n", ["m.toml:2", "on no face"]),

@@ -12,8 +12,8 @@ use radiosity::{Error, Scene};
 use super::values::{number, vector};
 
 /// What to do about a scene without light.
-pub(crate) const HINT: &str = "light it by --emit MATERIAL=800lm, --area-light, --point-light, --ies, --sun \
-                               or --sky; `radiosity info` lists materials";
+pub(crate) const HINT: &str =
+    "light it by --emit MATERIAL=800lm, --area-light, --point-light, --ies, --sun or --sky";
 
 /// What is added to a scene, and what is changed about it.
 #[derive(Debug, Args)]

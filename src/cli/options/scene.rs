@@ -56,7 +56,9 @@ impl SceneOptions {
             return Ok(scene);
         }
         let path = self.path.display();
-        Err(Error::Scene(format!("{path}: nothing in the scene emits light; {HINT}")))
+        Err(Error::Scene(format!(
+            "{path}: nothing in the scene emits light; {HINT}; `radiosity info` lists materials"
+        )))
     }
 
     fn load_options(&self) -> LoadOptions {
