@@ -11,6 +11,7 @@
 //! | [`mesh::Mesh::new`] | patches, cut along contact lines, and under each a tree of elements |
 //! | [`solve`] → [`Solution`] | light on the mesh, the mesh refined where the light asks for it, and why it stopped |
 //! | [`reconstruct()`] → [`TriMesh`] | radiosity at the vertices of a conforming triangulation |
+//! | [`solver::read`] → [`solver::Reading`]s | illuminance at any places, on a [`solver::WorkPlane`] for one |
 //! | [`form_factor::assemble`] → [`form_factor::FormFactors`] | beside all that: the matrix itself, of patches by whole faces ([`faces_of`]) or surfaces |
 //! | [`export::save`], [`render::render`] | files for others, pictures |
 //! | [`page::viewer()`] and others, [`page::document()`] | pages to share, with the mesh to turn in them |

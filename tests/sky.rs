@@ -126,6 +126,30 @@ fn a_window_lets_in_what_it_shows_of_the_sky() {
 }
 
 #[test]
+fn a_sky_seen_by_rays_is_the_same_on_the_mean() {
+    let place = (DVec3::new(1.3, 0.0, 1.5), DVec3::Y);
+    for sky in SKIES {
+        let surfaces = surfaces_of(&room_with_window(sky, [1.0, 0.9], [3.2, 2.4]));
+        let occluders = Occluders::new(&surfaces);
+        let lamps = Lamps::new(&surfaces, &Mesh::new(&surfaces, &coarse()));
+        let exact = lamps.shine(&occluders, place.0, place.1).irradiance.x;
+        let mut seed = 1_u64;
+        let mut random = || {
+            seed = seed
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let count = 20_000;
+        let sum: f64 = (0..count).map(|_| lamps.glimpse(&occluders, place, &mut random).x).sum();
+        let mean = sum / f64::from(count);
+        assert!((mean / exact - 1.0).abs() < 0.05, "{sky:?}: {mean} by glimpses, {exact}");
+        let sampled = lamps.seen_by(Some(1024)).shine(&occluders, place.0, place.1).irradiance.x;
+        assert!((sampled / exact - 1.0).abs() < 0.05, "{sky:?}: {sampled} by rays, {exact}");
+    }
+}
+
+#[test]
 fn power_of_a_sky_is_what_arrives_of_it() {
     let scene = room_with_window(Sky::Overcast, [1.0, 0.9], [3.2, 2.4]);
     let energy = solve(&surfaces_of(&scene), &coarse()).energy;

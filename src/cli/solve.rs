@@ -81,7 +81,7 @@ Examples:
   radiosity solve room.glb -o room-lit.ply --image mesh.png --view wireframe --tolerance 1.5%
   radiosity solve kitchen.obj --image final.png --image mesh.png --view light,reason --final-gather
   radiosity solve scenes/office.obj --quality draft --html office.html --snapshots 1,2,24,100
-  radiosity solve bare-room.obj --emit 'lamp*=800lm' --sky cie-overcast --image lit.png
+  radiosity solve scenes/bare-room.obj --emit 'lamp*=800lm' --sky cie-overcast --image lit.png
   radiosity solve room.obj --ies spot.ies@2,2.6,3 --grid 0.75,0.5 --grid-csv desk.csv
   radiosity solve scenes/blocker.obj --uniform 0.1 --image uniform.png --eye 1,2,3 --target 0,0,0";
 
@@ -93,9 +93,7 @@ impl Solve {
         self.report.talk.use_threads()?;
         let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.report.talk);
-        if self.written().next().is_none() && self.grid.grid.is_none() {
-            meter.tell("nothing will be written; -o FILE.glb, --image FILE.png and --html FILE.html do that");
-        }
+        self.warn_of_nothing(&meter);
 
         let (scene, camera) = self.read(&mut meter)?;
         meter.begin("surfaces");
@@ -169,6 +167,12 @@ impl Solve {
         self.page.check()?;
         self.picture.views(&self.image)?;
         Ok(())
+    }
+
+    fn warn_of_nothing(&self, meter: &Meter) {
+        if self.written().next().is_none() && self.grid.grid.is_none() {
+            meter.tell("nothing will be written; -o FILE.glb, --image FILE.png and --html FILE.html do that");
+        }
     }
 
     /// The files to write.
