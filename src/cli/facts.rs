@@ -52,7 +52,7 @@ struct LightFacts {
     kind: &'static str,
     /// In the unit.
     strength: [f64; 3],
-    /// W/sr of points; W/m² of directional lights, facing them, and of skies, horizontally; W of luminaires.
+    /// W/sr of points; W/m² of directional lights and suns, facing them, and of skies, horizontally; W of luminaires.
     unit: &'static str,
 }
 
@@ -118,6 +118,7 @@ impl From<&Light> for LightFacts {
             Light::Point { intensity, .. } => ("point", *intensity, "W/sr"),
             Light::Spot { intensity, .. } => ("spot", *intensity, "W/sr"),
             Light::Directional { irradiance, .. } => ("directional", *irradiance, "W/m²"),
+            Light::Sun { irradiance, .. } => ("sun", *irradiance, "W/m²"),
             Light::Luminaire { photometry, .. } => ("luminaire", watts(photometry.flux()), "W"),
             Light::Sky { irradiance, .. } => ("sky", *irradiance, "W/m²"),
         };

@@ -17,8 +17,8 @@ use crate::colour::Rgb;
 use crate::form_factor::contour::{point_to_polygon, point_to_polygon_above};
 use crate::mesh::{Direct, Mesh};
 use crate::scene::Light;
+use crate::surface::Surfaces;
 use crate::surface::cut::{Cuts, convex_pieces};
-use crate::surface::{Surface, Surfaces};
 use crate::visibility::{Facet, HalfSpace, Occluders, Pieces, Polygon};
 
 pub use lines::Line;
@@ -111,6 +111,9 @@ impl Lamps {
             match *light {
                 Light::Sky { sky, irradiance } => {
                     areas.extend(sky::lamps(surfaces, sky, irradiance));
+                }
+                Light::Sun { direction, irradiance } => {
+                    areas.extend(sky::sun(surfaces, direction, irradiance));
                 }
                 _ => points.push(light.clone()),
             }

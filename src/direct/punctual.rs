@@ -25,8 +25,8 @@ pub(super) fn irradiance(light: &Light, place: DVec3, normal: DVec3) -> Option<(
             let falloff = falloff(position - place, normal, None);
             (Rgb::splat(candela / LUMENS_PER_WATT * falloff), Source::Position(position))
         }
-        // Not of a point: it is among the areas.
-        Light::Sky { .. } => return None,
+        // Not of a point: they are among the areas.
+        Light::Sun { .. } | Light::Sky { .. } => return None,
         Light::Point { position, intensity, range } => {
             (intensity * falloff(position - place, normal, range), Source::Position(position))
         }

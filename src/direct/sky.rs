@@ -8,24 +8,23 @@ use glam::DVec3;
 
 use super::{AreaLamp, Glow};
 use crate::colour::Rgb;
+use crate::form_factor::contour::point_to_polygon_above;
 use crate::scene::Sky;
-use crate::surface::Surfaces;
+use crate::surface::{Surface, Surfaces};
 use crate::visibility::{HalfSpace, Polygon};
 
 /// Half the width of the box, in extents of the scene: the horizon is off by less than 1e-4 radians.
 const FAR: f64 = 1e4;
+
+/// Half the angle that the sun fills, degrees.
+const SUN_RADIUS: f64 = 0.2666;
 
 /// The pieces of a sky with this irradiance of an open horizontal place, W/m²: 12 squares, four overhead and
 /// two in each direction.
 ///
 /// They end at the height of the scene's top, so that nothing that faces down sees them.
 pub(super) fn lamps(surfaces: &Surfaces, sky: Sky, irradiance: Rgb) -> Vec<AreaLamp> {
-    let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let join = |(low, high): (DVec3, DVec3), (a, b): (DVec3, DVec3)| (low.min(a), high.max(b));
-    let (low, high) = surfaces.list.iter().map(super::Surface::bounds).fold(empty, join);
-    if !(low.is_finite() && high.is_finite()) {
-        return Vec::new();
-    }
+    let Some((low, high)) = bounds(surfaces) else { return Vec::new() };
     let (centre, size) = (low.midpoint(high).with_y(high.y), FAR * surfaces.extent);
     let (exitance, glow) = match sky {
         Sky::Uniform => (irradiance, Glow::Even),
@@ -38,6 +37,27 @@ pub(super) fn lamps(surfaces: &Surfaces, sky: Sky, irradiance: Rgb) -> Vec<AreaL
         AreaLamp { front: HalfSpace::new(corners[0], normal), corners, exitance, glow }
     };
     squares().map(lamp).collect()
+}
+
+/// A sun that shines along a unit `direction`, with this irradiance of a plane that faces it, W/m²: a square of
+/// the disc's solid angle.
+pub(super) fn sun(surfaces: &Surfaces, direction: DVec3, irradiance: Rgb) -> Option<AreaLamp> {
+    let (low, high) = bounds(surfaces)?;
+    let (middle, distance) = (low.midpoint(high), FAR * surfaces.extent);
+    let half = distance * SUN_RADIUS.to_radians().tan() * PI.sqrt() / 2.0;
+    let x = DVec3::Y.cross(direction).try_normalize().unwrap_or(DVec3::X);
+    let (u, v) = (x * half, direction.cross(x) * half);
+    let centre = middle - direction * distance;
+    let corners =
+        Polygon::from_slice(&[centre - u - v, centre + u - v, centre + u + v, centre - u + v]);
+    let factor = point_to_polygon_above(middle, -direction, &corners);
+    let (front, exitance) = (HalfSpace::new(centre, direction), irradiance / factor);
+    Some(AreaLamp { corners, front, exitance, glow: Glow::Surface })
+}
+
+fn bounds(surfaces: &Surfaces) -> Option<(DVec3, DVec3)> {
+    let bounds = surfaces.list.iter().map(Surface::bounds);
+    bounds.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)))
 }
 
 /// The squares of a box of height 1 around the origin, without a bottom, facing inward.

@@ -51,6 +51,13 @@ pub enum Light {
         /// Angle from +X to its horizontal angle 0, radians, counter-clockwise seen from above.
         turn: f64,
     },
+    /// Shines from a disc of half a degree infinitely far away, so that shadows have narrow borders.
+    Sun {
+        /// Unit vector the light of its middle travels along.
+        direction: DVec3,
+        /// Irradiance of a surface that faces it, W/m².
+        irradiance: Rgb,
+    },
     /// Shines from everywhere above the horizon; Y is up.
     Sky {
         /// How bright it is where.
@@ -100,7 +107,7 @@ impl Light {
         let (azimuth, elevation) = (azimuth.to_radians(), elevation.to_radians());
         let flat = DVec3::new(azimuth.sin(), 0.0, -azimuth.cos()) * elevation.cos();
         let towards = flat + DVec3::Y * elevation.sin();
-        Self::Directional {
+        Self::Sun {
             direction: -towards.normalize_or(DVec3::Y),
             irradiance: Rgb::splat(lux / LUMENS_PER_WATT),
         }

@@ -158,7 +158,9 @@ fn assert_sound_light(light: &Light) {
             (position, direction, intensity)
         }
         Light::Directional { direction, irradiance } => (glam::DVec3::ZERO, direction, irradiance),
-        Light::Luminaire { .. } | Light::Sky { .. } => panic!("no such light is in glTF files"),
+        Light::Luminaire { .. } | Light::Sun { .. } | Light::Sky { .. } => {
+            panic!("no such light is in glTF files")
+        }
     };
     assert!(place.is_finite() && direction.is_normalized(), "{light:?}");
     assert!(strength.is_finite() && strength.min_element() >= 0.0, "{light:?}");
