@@ -28,6 +28,12 @@ const FARTHEST: usize = 150;
 /// Surfaces below this share of the largest one's area have no profile.
 const LARGE: f64 = 0.05;
 
+/// Edges across which so much of the lamps goes from sight are clear.
+const CLEAR: f64 = 0.4;
+
+/// Steepest edges that are tried.
+const TRIES: usize = 500;
+
 /// Other random numbers than the reference's by default.
 const PROFILE_SEED: u64 = 2;
 
@@ -72,15 +78,29 @@ struct Edge {
     steepness: f64,
 }
 
+/// Where a shadow goes from light to dark.
+#[derive(Clone, Copy)]
+struct Penumbra {
+    /// m.
+    width: f64,
+    /// How far its middle is from the edge's place along the edge's direction, m.
+    centre: f64,
+    /// Difference of the shares of the lamps that are seen.
+    contrast: f64,
+}
+
 impl Profile {
     /// Across the steepest smooth edge of a shadow on a large surface; `None` if there is none.
     pub fn find(surfaces: &Surfaces, reference: &Reference, paths: usize) -> Option<Self> {
         let sampler = Sampler::new(surfaces);
         let scales = SCALES.iter().map(|scale| scale * surfaces.extent);
-        let edge = scales.into_iter().find_map(|scale| steepest(&sampler, reference, scale))?;
+        let found: Vec<(Edge, Penumbra)> =
+            scales.filter_map(|scale| clearest(&sampler, reference, scale)).collect();
+        let clear = found.iter().find(|(_, penumbra)| penumbra.contrast >= CLEAR);
+        let (edge, Penumbra { width: penumbra, centre, .. }) = clear.or(found.first())?;
+        let (penumbra, centre) = (*penumbra, *centre);
         let surface = &surfaces.list[edge.site.surface];
         let middle = surface.plane.flatten(edge.site.place);
-        let (penumbra, centre) = width(&sampler, &edge, middle)?;
         let along = edge.direction * (WIDTHS * penumbra / 2.0);
         let ends = clipped((&sampler, &edge.site), middle + edge.direction * centre, along)?;
         let length = ends[0].distance(ends[1]);
@@ -134,8 +154,9 @@ impl Profile {
     }
 }
 
-/// The steepest edge among the places of the shadow set; where light jumps there is no penumbra.
-fn steepest(sampler: &Sampler<'_>, reference: &Reference, scale: f64) -> Option<Edge> {
+/// Of the steepest edges among the places of the shadow set, the first across which lamps go from sight, or else
+/// that which comes nearest; where light jumps there is no penumbra.
+fn clearest(sampler: &Sampler<'_>, reference: &Reference, scale: f64) -> Option<(Edge, Penumbra)> {
     let surfaces = sampler.surfaces;
     let largest = surfaces.list.iter().map(Surface::area).fold(0.0, f64::max);
     let shadow = reference.points.iter().filter(|point| point.set == Set::Shadow);
@@ -146,10 +167,21 @@ fn steepest(sampler: &Sampler<'_>, reference: &Reference, scale: f64) -> Option<
             large.then_some(Site { surface, place: point.place, normal: point.normal })
         })
         .collect();
-    let found: Vec<Option<Edge>> =
+    let edges: Vec<Option<Edge>> =
         sites.par_iter().map(|site| edge(sampler, site, scale)).collect();
-    let found = found.into_iter().flatten();
-    found.reduce(|best, edge| if edge.steepness > best.steepness { edge } else { best })
+    let mut edges: Vec<Edge> = edges.into_iter().flatten().collect();
+    edges.sort_by(|a, b| b.steepness.total_cmp(&a.steepness));
+    let mut best: Option<(Edge, Penumbra)> = None;
+    for edge in edges.into_iter().take(TRIES) {
+        let Some(penumbra) = penumbra(sampler, &edge) else { continue };
+        if best.as_ref().is_none_or(|(_, best)| penumbra.contrast > best.contrast) {
+            best = Some((edge, penumbra));
+        }
+        if penumbra.contrast >= CLEAR {
+            break;
+        }
+    }
+    best
 }
 
 /// The surface that a place is on.
@@ -167,7 +199,8 @@ fn edge(sampler: &Sampler<'_>, site: &Site, step: f64) -> Option<Edge> {
     let whole = gradient(sampler, site, step)?;
     let half = gradient(sampler, site, step / 2.0)?;
     let steepness = whole.length();
-    let smooth = steepness > 0.0 && half.length() <= SMOOTH * steepness;
+    let smooth =
+        steepness > 0.0 && (steepness / SMOOTH..=steepness * SMOOTH).contains(&half.length());
     smooth.then(|| Edge { site: *site, direction: whole.normalize_or_zero(), steepness })
 }
 
@@ -188,26 +221,28 @@ fn visible(sampler: &Sampler<'_>, site: &Site, at: DVec2) -> Option<f64> {
     contains(&surface.rings, at).then(|| sampler.direct(&Site { place, ..*site }).visible())
 }
 
-/// Width of a penumbra, m, and how far its middle is from a place in it, along the edge's direction.
-fn width(sampler: &Sampler<'_>, edge: &Edge, middle: DVec2) -> Option<(f64, f64)> {
+/// The penumbra that a place is in: from it both ways along the edge's direction, while light rises or falls.
+fn penumbra(sampler: &Sampler<'_>, edge: &Edge) -> Option<Penumbra> {
+    let surface = &sampler.surfaces.list[edge.site.surface];
+    let middle = surface.plane.flatten(edge.site.place);
     let step = STEP * sampler.surfaces.extent;
     let seen = |k: usize, sign: f64| {
         visible(sampler, &edge.site, middle + edge.direction * (sign * step * k as f64))
     };
+    // How far, and what share of the lamps is seen there.
     let walk = |sign: f64| {
         let mut last = seen(0, sign).unwrap_or_default();
         for k in 1..FARTHEST {
-            let Some(next) = seen(k, sign) else { return k as f64 };
-            // Over when the light turns, or hardly changes any more.
-            if (next - last) * sign < 1e-4 {
-                return k as f64;
-            }
+            // Over at a border, or when the light turns or hardly changes any more.
+            let next = seen(k, sign).filter(|next| (next - last) * sign >= 1e-4);
+            let Some(next) = next else { return (step * k as f64, last) };
             last = next;
         }
-        FARTHEST as f64
+        (step * FARTHEST as f64, last)
     };
-    let (up, down) = (walk(1.0) * step, walk(-1.0) * step);
-    (up + down > 0.0).then_some((up + down, (up - down) / 2.0))
+    let ((up, most), (down, least)) = (walk(1.0), walk(-1.0));
+    let penumbra = Penumbra { width: up + down, centre: (up - down) / 2.0, contrast: most - least };
+    (penumbra.width > 0.0).then_some(penumbra)
 }
 
 /// The part of the line from `middle - along` to `middle + along` around its middle that is on a site's
