@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::estimate::{Estimate, ROUNDS};
 use super::locate::Locator;
-use super::reference::{Reference, Set, is_open};
+use super::reference::{Point, Reference, Set, is_open};
 use super::run::Lit;
 use super::sampler::{Sampler, Site};
 use crate::colour::luminance;
@@ -28,17 +28,11 @@ const FARTHEST: usize = 150;
 /// Surfaces below this share of the largest one's area have no profile.
 const LARGE: f64 = 0.05;
 
-/// Edges across which so much of the lamps goes from sight are clear.
-const CLEAR: f64 = 0.4;
-
-/// Steepest edges that are tried.
-const TRIES: usize = 500;
-
 /// Other random numbers than the reference's by default.
 const PROFILE_SEED: u64 = 2;
 
-/// Scales at which an edge must be smooth, as shares of the extent: a wide penumbra is looked for first.
-const SCALES: [f64; 2] = [1e-2, 2e-3];
+/// Step at which an edge must be smooth, as a share of the extent.
+const SCALE: f64 = 2e-3;
 
 /// The gradient may change by this factor when its step is halved; where it changes more, light jumps.
 const SMOOTH: f64 = 1.5;
@@ -69,13 +63,11 @@ pub struct Trace {
     pub ticks: Vec<f64>,
 }
 
-/// The steepest place of a shadow, and which way it falls.
+/// A place of a shadow, and which way it falls.
 struct Edge {
     site: Site,
     /// Unit vector on the surface's plane, towards the light.
     direction: DVec2,
-    /// Change of direct irradiance, W/m³.
-    steepness: f64,
 }
 
 /// Where a shadow goes from light to dark.
@@ -89,35 +81,37 @@ struct Penumbra {
     contrast: f64,
 }
 
+/// A line across a penumbra.
+struct Transect {
+    site: Site,
+    penumbra: Penumbra,
+    /// Its ends on the plane of the site's surface, m.
+    ends: [DVec2; 2],
+    /// How much light goes along it, the more so the less it is cut short, W/m².
+    worth: f64,
+}
+
 impl Profile {
-    /// Across the steepest smooth edge of a shadow on a large surface; `None` if there is none.
+    /// Across the smooth edge of a shadow on a large surface at which most light goes; `None` if there is none.
     pub fn find(surfaces: &Surfaces, reference: &Reference, paths: usize) -> Option<Self> {
         let sampler = Sampler::new(surfaces);
-        let scales = SCALES.iter().map(|scale| scale * surfaces.extent);
-        let found: Vec<(Edge, Penumbra)> =
-            scales.filter_map(|scale| clearest(&sampler, reference, scale)).collect();
-        let clear = found.iter().find(|(_, penumbra)| penumbra.contrast >= CLEAR);
-        let (edge, Penumbra { width: penumbra, centre, .. }) = clear.or(found.first())?;
-        let (penumbra, centre) = (*penumbra, *centre);
-        let surface = &surfaces.list[edge.site.surface];
-        let middle = surface.plane.flatten(edge.site.place);
-        let along = edge.direction * (WIDTHS * penumbra / 2.0);
-        let ends = clipped((&sampler, &edge.site), middle + edge.direction * centre, along)?;
+        let Transect { site, penumbra, ends, .. } = best(&sampler, reference)?;
+        let surface = &surfaces.list[site.surface];
         let length = ends[0].distance(ends[1]);
         let at: Vec<f64> = (0..PLACES).map(|k| length * k as f64 / (PLACES - 1) as f64).collect();
-        let site = |&at: &f64| {
+        let site_at = |&at: &f64| {
             let place = surface.plane.lift(ends[0].lerp(ends[1], at / length));
-            Site { place, ..edge.site }
+            Site { place, ..site }
         };
-        let sites: Vec<Site> = at.iter().map(site).collect();
+        let sites: Vec<Site> = at.iter().map(site_at).collect();
         let mut estimate = Estimate::new(&sampler, &sites, PROFILE_SEED);
         estimate.lengthen((paths / ROUNDS).max(1) as u32);
         let found: Vec<[f64; 2]> =
             (0..PLACES).map(|k| estimate.radiosity(k).map(luminance)).collect();
         Some(Self {
-            surface: edge.site.surface,
+            surface: site.surface,
             ends: ends.map(|end| surface.plane.lift(end).to_array()),
-            penumbra,
+            penumbra: penumbra.width,
             at,
             reference: found.iter().map(|found| found[0]).collect(),
             error: found.iter().map(|found| found[1]).collect(),
@@ -154,34 +148,34 @@ impl Profile {
     }
 }
 
-/// Of the steepest edges among the places of the shadow set, the first across which lamps go from sight, or else
-/// that which comes nearest; where light jumps there is no penumbra.
-fn clearest(sampler: &Sampler<'_>, reference: &Reference, scale: f64) -> Option<(Edge, Penumbra)> {
+/// Of all lines across soft edges at the places of the shadow set, the one along which most light goes.
+fn best(sampler: &Sampler<'_>, reference: &Reference) -> Option<Transect> {
     let surfaces = sampler.surfaces;
     let largest = surfaces.list.iter().map(Surface::area).fold(0.0, f64::max);
-    let shadow = reference.points.iter().filter(|point| point.set == Set::Shadow);
-    let sites: Vec<Site> = shadow
-        .filter_map(|point| {
-            let surface = surface_at(surfaces, point.place, point.normal)?;
-            let large = surfaces.list[surface].area() >= LARGE * largest;
-            large.then_some(Site { surface, place: point.place, normal: point.normal })
-        })
-        .collect();
-    let edges: Vec<Option<Edge>> =
-        sites.par_iter().map(|site| edge(sampler, site, scale)).collect();
-    let mut edges: Vec<Edge> = edges.into_iter().flatten().collect();
-    edges.sort_by(|a, b| b.steepness.total_cmp(&a.steepness));
-    let mut best: Option<(Edge, Penumbra)> = None;
-    for edge in edges.into_iter().take(TRIES) {
-        let Some(penumbra) = penumbra(sampler, &edge) else { continue };
-        if best.as_ref().is_none_or(|(_, best)| penumbra.contrast > best.contrast) {
-            best = Some((edge, penumbra));
-        }
-        if penumbra.contrast >= CLEAR {
-            break;
-        }
-    }
-    best
+    let shadow: Vec<_> = reference.points.iter().filter(|point| point.set == Set::Shadow).collect();
+    let transect = |point: &&Point| {
+        let surface = surface_at(surfaces, point.place, point.normal)?;
+        let large = surfaces.list[surface].area() >= LARGE * largest;
+        let site = Site { surface, place: point.place, normal: point.normal };
+        large.then(|| transect(sampler, &site)).flatten()
+    };
+    let found: Vec<Option<Transect>> = shadow.par_iter().map(transect).collect();
+    found
+        .into_iter()
+        .flatten()
+        .reduce(|best, next| if next.worth > best.worth { next } else { best })
+}
+
+/// The line across the soft edge at a place, if there is one; where light jumps there is no penumbra.
+fn transect(sampler: &Sampler<'_>, site: &Site) -> Option<Transect> {
+    let edge = edge(sampler, site, SCALE * sampler.surfaces.extent)?;
+    let penumbra = penumbra(sampler, &edge)?;
+    let middle = sampler.surfaces.list[site.surface].plane.flatten(site.place);
+    let along = edge.direction * (WIDTHS * penumbra.width / 2.0);
+    let ends = clipped((sampler, site), middle + edge.direction * penumbra.centre, along)?;
+    let whole = ends[0].distance(ends[1]) / (2.0 * along.length());
+    let all = luminance(sampler.direct(site).unoccluded);
+    Some(Transect { site: *site, penumbra, ends, worth: penumbra.contrast * all * whole })
 }
 
 /// The surface that a place is on.
@@ -201,7 +195,7 @@ fn edge(sampler: &Sampler<'_>, site: &Site, step: f64) -> Option<Edge> {
     let steepness = whole.length();
     let smooth =
         steepness > 0.0 && (steepness / SMOOTH..=steepness * SMOOTH).contains(&half.length());
-    smooth.then(|| Edge { site: *site, direction: whole.normalize_or_zero(), steepness })
+    smooth.then(|| Edge { site: *site, direction: whole.normalize_or_zero() })
 }
 
 /// Change of the visible share of lamps, times what they would send, on the plane of a place, W/m³.
