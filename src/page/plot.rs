@@ -242,7 +242,7 @@ fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
         "0".to_owned()
-    } else if size >= 1e6 || size < 1e-3 {
+    } else if !(1e-3..1e6).contains(&size) {
         format!("{x:.0e}")
     } else {
         let digits = (2 - size.log10().floor() as i32).max(0) as usize;

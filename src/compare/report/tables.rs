@@ -160,10 +160,7 @@ fn histogram(
     let header: Vec<&str> =
         ["mesh", ""].into_iter().chain(names.iter().map(String::as_str)).collect();
     let row = |run: &Run| {
-        let counts = (0..names.len()).map(|k| match count(run, k) {
-            0 => Cell::Empty,
-            count => Cell::count(count),
-        });
+        let counts = (0..names.len()).map(|k| Cell::count(count(run, k)));
         [Cell::text(run.family.name()), Cell::number(run.knob, 4)]
             .into_iter()
             .chain(counts)
