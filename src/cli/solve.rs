@@ -9,11 +9,12 @@ use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
 use radiosity::{Scene, load, reconstruct, solve_in_stages, surfaces_of};
 
+use super::estimate::Estimate;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
 use super::options::{
-    AccuracyOptions, CameraChoice, PictureOptions, ReportOptions, SceneOptions, display,
+    AccuracyOptions, CameraChoice, LimitOptions, PictureOptions, ReportOptions, SceneOptions, display,
 };
 use super::page::{Account, PageOptions};
 use super::record::{CameraRecord, SettingsRecord, stamped};
@@ -56,6 +57,9 @@ pub(crate) struct Solve {
     accuracy: AccuracyOptions,
 
     #[command(flatten)]
+    limits: LimitOptions,
+
+    #[command(flatten)]
     picture: PictureOptions,
 
     #[command(flatten)]
@@ -79,11 +83,11 @@ Examples:
 
 impl Solve {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        let settings = self.accuracy.settings();
+        let settings = self.limits.limited(self.accuracy.settings());
         settings.validate()?;
         self.check()?;
         self.report.talk.use_threads()?;
-        let interrupt = Interrupt::listen();
+        let interrupt = Interrupt::listen().within(self.limits.time());
         let mut meter = Meter::new(&self.report.talk);
         if self.written().next().is_none() {
             meter.tell("nothing will be written; -o FILE.glb, --image FILE.png and --html FILE.html do that");
@@ -96,11 +100,15 @@ impl Solve {
         if self.report.talk.verbose > 0 {
             meter.tell(&settings_record.to_string());
         }
+        meter.tell(&Estimate::new(&surfaces, &settings).to_string());
         let stages = self.page.stages();
         let (solution, stages) = solve_in_stages(&surfaces, &settings, &stages, |progress| {
             meter.follow(progress);
             interrupt.flow()
         })?;
+        if solution.mesh.is_full() {
+            meter.tell("note: memory has ended the refinement; --max-memory allows more");
+        }
         meter.begin("triangles");
         let mesh = reconstruct(&surfaces, &solution);
 

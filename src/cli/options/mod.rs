@@ -1,12 +1,14 @@
 //! Options that subcommands share, grouped as the help shows them.
 
 mod accuracy;
+mod limits;
 mod report;
 mod scene;
 pub(crate) mod values;
 mod view;
 
 pub(crate) use accuracy::{AccuracyOptions, MethodOptions};
+pub(crate) use limits::{LimitOptions, memory};
 pub(crate) use report::{ReportOptions, TalkOptions};
 pub(crate) use scene::SceneOptions;
 pub(crate) use view::{CameraChoice, PictureOptions, display};
