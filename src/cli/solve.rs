@@ -14,7 +14,8 @@ use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
 use super::options::{
-    AccuracyOptions, CameraChoice, LimitOptions, PictureOptions, ReportOptions, SceneOptions, display,
+    AccuracyOptions, CameraChoice, LimitOptions, PictureOptions, ReportOptions, SceneOptions,
+    display,
 };
 use super::page::{Account, PageOptions};
 use super::record::{CameraRecord, SettingsRecord, stamped};
