@@ -7,7 +7,7 @@ use radiosity::export::{self, Stamp};
 use radiosity::render::{self, Solved, Subject};
 use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
-use radiosity::{Scene, load, reconstruct, solve_in_stages, surfaces_of};
+use radiosity::{Scene, Settings, Surfaces, load, reconstruct, solve_in_stages, surfaces_of};
 
 use super::estimate::Estimate;
 use super::failure::Failure;
@@ -98,10 +98,8 @@ impl Solve {
         meter.begin("surfaces");
         let surfaces = surfaces_of(&scene);
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
-        if self.report.talk.verbose > 0 {
-            meter.tell(&settings_record.to_string());
-        }
-        meter.tell(&Estimate::new(&surfaces, &settings).to_string());
+        settings.validate_for(surfaces.area(), surfaces.extent)?;
+        self.announce((&surfaces, &settings), &settings_record, &meter);
         let stages = self.page.stages();
         let (solution, stages) = solve_in_stages(&surfaces, &settings, &stages, |progress| {
             meter.follow(progress);
@@ -147,6 +145,19 @@ impl Solve {
             written: self.written().cloned().collect(),
             notes: scene.notes,
         })
+    }
+
+    /// What is asked for, and what to expect of it.
+    fn announce(
+        &self,
+        (surfaces, settings): (&Surfaces, &Settings),
+        record: &SettingsRecord,
+        meter: &Meter,
+    ) {
+        if self.report.talk.verbose > 0 {
+            meter.tell(&record.to_string());
+        }
+        meter.tell(&Estimate::new(surfaces, settings).to_string());
     }
 
     fn read(&self, meter: &mut Meter) -> Result<(Scene, CameraChoice), Failure> {

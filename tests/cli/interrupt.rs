@@ -57,7 +57,7 @@ fn a_limit_of_memory_ends_the_refinement_and_says_so() {
     let told = |outcome: &Outcome| outcome.stderr.contains("memory has ended the refinement");
     assert!(told(&tight) && !told(&free), "{}", tight.stderr);
     let fine = [&solve[..], &["--uniform", "0.001", "--max-memory", "100MB"]].concat();
-    place.run(&fine).refused(1, &["uniform"]);
+    place.run(&fine).refused(2, &["uniform"]);
 }
 
 /// What a killed command leaves is nothing, or the file it had finished.
