@@ -35,6 +35,9 @@ pub struct Settings {
     pub stop: f64,
     /// Most shots to fire, emitters included; `None` goes on until `stop` is reached.
     pub max_shots: Option<usize>,
+    /// Most elements: refinement ends before there are more (default `None`: it does not matter). Patches come
+    /// first, however many they are.
+    pub max_elements: Option<usize>,
     /// Which patch sends its reflected light on next (default [`Method::Progressive`]). All end with
     /// the same light, some sooner.
     pub solver: Method,
@@ -94,6 +97,7 @@ impl Settings {
             shadow_rays: None,
             stop: 0.001,
             max_shots: None,
+            max_elements: None,
             solver: Method::Progressive,
             omega: 1.0,
             hemicube_resolution: 128,
@@ -155,7 +159,9 @@ impl Settings {
     pub fn validate_for(&self, area: f64, extent: f64) -> Result<()> {
         bearable("patch-size", area, self.patch_length(extent), MOST_PATCHES)?;
         let uniform = self.uniform.unwrap_or(f64::INFINITY);
-        bearable("uniform", area, uniform, MOST_UNIFORM_ELEMENTS)
+        let most = self.max_elements.map_or(f64::INFINITY, |most| most as f64);
+        // With all their ancestors, elements are a third more.
+        bearable("uniform", area, uniform, MOST_UNIFORM_ELEMENTS.min(0.75 * most))
     }
 }
 

@@ -19,7 +19,7 @@ use super::{console, outputs};
 
 /// Solve a scene on uniform and on adaptive meshes and say which is worth its cost
 ///
-/// Errors are against a reference that no mesh has had a part in: at some 3000 places, direct light exactly and
+/// Errors are against a reference that no mesh has had a part in: at some 9000 places, direct light exactly and
 /// reflected light by paths, with a standard error. All runs share solver, direct light and threads. Ctrl-C ends
 /// the work after the current run and reports what there is.
 #[derive(Debug, Args)]
@@ -60,7 +60,7 @@ pub(crate) struct Compare {
     noise: f64,
 
     /// Places of an automatic reference on all surfaces; half as many more along the edges of shadows
-    #[arg(long, value_name = "N", default_value_t = 2000, help_heading = "Comparison")]
+    #[arg(long, value_name = "N", default_value_t = 6000, help_heading = "Comparison")]
     #[arg(value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
     places: u32,
 

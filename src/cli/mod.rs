@@ -5,6 +5,7 @@ mod compared;
 mod config;
 mod console;
 mod enclosure;
+mod estimate;
 mod facts;
 mod failure;
 mod form_factors;

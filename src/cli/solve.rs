@@ -9,14 +9,18 @@ use radiosity::mesh::Direct;
 use radiosity::render::{self, Solved, Subject};
 use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
-use radiosity::{Error, Scene, Solution, reconstruct, solve_in_stages, surfaces_of};
+use radiosity::{
+    Error, Scene, Settings, Solution, Surfaces, reconstruct, solve_in_stages, surfaces_of,
+};
 
+use super::estimate::Estimate;
 use super::failure::Failure;
 use super::grid::GridOptions;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
 use super::options::{
-    AccuracyOptions, CameraChoice, HINT, PictureOptions, ReportOptions, SceneOptions, display,
+    AccuracyOptions, CameraChoice, HINT, LimitOptions, PictureOptions, ReportOptions, SceneOptions,
+    display,
 };
 use super::page::{Account, PageOptions};
 use super::record::{CameraRecord, SettingsRecord, stamped};
@@ -62,6 +66,9 @@ pub(crate) struct Solve {
     accuracy: AccuracyOptions,
 
     #[command(flatten)]
+    limits: LimitOptions,
+
+    #[command(flatten)]
     picture: PictureOptions,
 
     #[command(flatten)]
@@ -87,11 +94,11 @@ Examples:
 
 impl Solve {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        let settings = self.accuracy.settings();
+        let settings = self.limits.limited(self.accuracy.settings());
         settings.validate()?;
         self.check()?;
         self.report.talk.use_threads()?;
-        let interrupt = Interrupt::listen();
+        let interrupt = Interrupt::listen().within(self.limits.time());
         let mut meter = Meter::new(&self.report.talk);
         self.warn_of_nothing(&meter);
 
@@ -100,15 +107,15 @@ impl Solve {
         let surfaces = surfaces_of(&scene);
         let places = self.grid.places(&surfaces)?;
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
-        if self.report.talk.verbose > 0 {
-            meter.tell(&settings_record.to_string());
-        }
+        settings.validate_for(surfaces.area(), surfaces.extent)?;
+        self.announce((&surfaces, &settings), &settings_record, &meter);
         let stages = self.page.stages();
         let (solution, stages) = solve_in_stages(&surfaces, &settings, &stages, |progress| {
             meter.follow(progress);
             interrupt.flow()
         })?;
         refuse_darkness(&solution)?;
+        tell_if_full(&solution, &meter);
         meter.begin("triangles");
         let mesh = reconstruct(&surfaces, &solution);
 
@@ -148,6 +155,19 @@ impl Solve {
             written: self.written().cloned().collect(),
             notes: scene.notes,
         })
+    }
+
+    /// What is asked for, and what to expect of it.
+    fn announce(
+        &self,
+        (surfaces, settings): (&Surfaces, &Settings),
+        record: &SettingsRecord,
+        meter: &Meter,
+    ) {
+        if self.report.talk.verbose > 0 {
+            meter.tell(&record.to_string());
+        }
+        meter.tell(&Estimate::new(surfaces, settings).to_string());
     }
 
     fn read(&self, meter: &mut Meter) -> Result<(Scene, CameraChoice), Failure> {
@@ -235,6 +255,12 @@ impl Solve {
             }
         }
         Ok(())
+    }
+}
+
+fn tell_if_full(solution: &Solution, meter: &Meter) {
+    if solution.mesh.is_full() {
+        meter.tell("note: memory has ended the refinement; --max-memory allows more");
     }
 }
 

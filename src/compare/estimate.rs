@@ -36,7 +36,7 @@ pub struct Effort {
 impl Default for Effort {
     fn default() -> Self {
         let budget = Duration::from_secs(120);
-        Self { area_points: 2000, shadow_points: 1000, noise: 0.002, budget, seed: 1 }
+        Self { area_points: 6000, shadow_points: 3000, noise: 0.002, budget, seed: 1 }
     }
 }
 

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::estimate::{Estimate, ROUNDS};
 use super::locate::Locator;
-use super::reference::{Reference, Set, is_open};
+use super::reference::{Point, Reference, Set, is_open};
 use super::run::Lit;
 use super::sampler::{Sampler, Site};
 use crate::colour::luminance;
@@ -31,8 +31,8 @@ const LARGE: f64 = 0.05;
 /// Other random numbers than the reference's by default.
 const PROFILE_SEED: u64 = 2;
 
-/// Scales at which an edge must be smooth, as shares of the extent: a wide penumbra is looked for first.
-const SCALES: [f64; 2] = [1e-2, 2e-3];
+/// Step at which an edge must be smooth, as a share of the extent.
+const SCALE: f64 = 2e-3;
 
 /// The gradient may change by this factor when its step is halved; where it changes more, light jumps.
 const SMOOTH: f64 = 1.5;
@@ -63,41 +63,55 @@ pub struct Trace {
     pub ticks: Vec<f64>,
 }
 
-/// The steepest place of a shadow, and which way it falls.
+/// A place of a shadow, and which way it falls.
 struct Edge {
     site: Site,
     /// Unit vector on the surface's plane, towards the light.
     direction: DVec2,
-    /// Change of direct irradiance, W/m³.
-    steepness: f64,
+}
+
+/// Where a shadow goes from light to dark.
+#[derive(Clone, Copy)]
+struct Penumbra {
+    /// m.
+    width: f64,
+    /// How far its middle is from the edge's place along the edge's direction, m.
+    centre: f64,
+    /// Difference of the shares of the lamps that are seen.
+    contrast: f64,
+}
+
+/// A line across a penumbra.
+struct Transect {
+    site: Site,
+    penumbra: Penumbra,
+    /// Its ends on the plane of the site's surface, m.
+    ends: [DVec2; 2],
+    /// How much light goes along it, the more so the less it is cut short, W/m².
+    worth: f64,
 }
 
 impl Profile {
-    /// Across the steepest smooth edge of a shadow on a large surface; `None` if there is none.
+    /// Across the smooth edge of a shadow on a large surface at which most light goes; `None` if there is none.
     pub fn find(surfaces: &Surfaces, reference: &Reference, paths: usize) -> Option<Self> {
         let sampler = Sampler::new(surfaces);
-        let scales = SCALES.iter().map(|scale| scale * surfaces.extent);
-        let edge = scales.into_iter().find_map(|scale| steepest(&sampler, reference, scale))?;
-        let surface = &surfaces.list[edge.site.surface];
-        let middle = surface.plane.flatten(edge.site.place);
-        let (penumbra, centre) = width(&sampler, &edge, middle)?;
-        let along = edge.direction * (WIDTHS * penumbra / 2.0);
-        let ends = clipped((&sampler, &edge.site), middle + edge.direction * centre, along)?;
+        let Transect { site, penumbra, ends, .. } = best(&sampler, reference)?;
+        let surface = &surfaces.list[site.surface];
         let length = ends[0].distance(ends[1]);
         let at: Vec<f64> = (0..PLACES).map(|k| length * k as f64 / (PLACES - 1) as f64).collect();
-        let site = |&at: &f64| {
+        let site_at = |&at: &f64| {
             let place = surface.plane.lift(ends[0].lerp(ends[1], at / length));
-            Site { place, ..edge.site }
+            Site { place, ..site }
         };
-        let sites: Vec<Site> = at.iter().map(site).collect();
+        let sites: Vec<Site> = at.iter().map(site_at).collect();
         let mut estimate = Estimate::new(&sampler, &sites, PROFILE_SEED);
         estimate.lengthen((paths / ROUNDS).max(1) as u32);
         let found: Vec<[f64; 2]> =
             (0..PLACES).map(|k| estimate.radiosity(k).map(luminance)).collect();
         Some(Self {
-            surface: edge.site.surface,
+            surface: site.surface,
             ends: ends.map(|end| surface.plane.lift(end).to_array()),
-            penumbra,
+            penumbra: penumbra.width,
             at,
             reference: found.iter().map(|found| found[0]).collect(),
             error: found.iter().map(|found| found[1]).collect(),
@@ -134,22 +148,34 @@ impl Profile {
     }
 }
 
-/// The steepest edge among the places of the shadow set; where light jumps there is no penumbra.
-fn steepest(sampler: &Sampler<'_>, reference: &Reference, scale: f64) -> Option<Edge> {
+/// Of all lines across soft edges at the places of the shadow set, the one along which most light goes.
+fn best(sampler: &Sampler<'_>, reference: &Reference) -> Option<Transect> {
     let surfaces = sampler.surfaces;
     let largest = surfaces.list.iter().map(Surface::area).fold(0.0, f64::max);
-    let shadow = reference.points.iter().filter(|point| point.set == Set::Shadow);
-    let sites: Vec<Site> = shadow
-        .filter_map(|point| {
-            let surface = surface_at(surfaces, point.place, point.normal)?;
-            let large = surfaces.list[surface].area() >= LARGE * largest;
-            large.then_some(Site { surface, place: point.place, normal: point.normal })
-        })
-        .collect();
-    let found: Vec<Option<Edge>> =
-        sites.par_iter().map(|site| edge(sampler, site, scale)).collect();
-    let found = found.into_iter().flatten();
-    found.reduce(|best, edge| if edge.steepness > best.steepness { edge } else { best })
+    let shadow: Vec<_> = reference.points.iter().filter(|point| point.set == Set::Shadow).collect();
+    let transect = |point: &&Point| {
+        let surface = surface_at(surfaces, point.place, point.normal)?;
+        let large = surfaces.list[surface].area() >= LARGE * largest;
+        let site = Site { surface, place: point.place, normal: point.normal };
+        large.then(|| transect(sampler, &site)).flatten()
+    };
+    let found: Vec<Option<Transect>> = shadow.par_iter().map(transect).collect();
+    found
+        .into_iter()
+        .flatten()
+        .reduce(|best, next| if next.worth > best.worth { next } else { best })
+}
+
+/// The line across the soft edge at a place, if there is one; where light jumps there is no penumbra.
+fn transect(sampler: &Sampler<'_>, site: &Site) -> Option<Transect> {
+    let edge = edge(sampler, site, SCALE * sampler.surfaces.extent)?;
+    let penumbra = penumbra(sampler, &edge)?;
+    let middle = sampler.surfaces.list[site.surface].plane.flatten(site.place);
+    let along = edge.direction * (WIDTHS * penumbra.width / 2.0);
+    let ends = clipped((sampler, site), middle + edge.direction * penumbra.centre, along)?;
+    let whole = ends[0].distance(ends[1]) / (2.0 * along.length());
+    let all = luminance(sampler.direct(site).unoccluded);
+    Some(Transect { site: *site, penumbra, ends, worth: penumbra.contrast * all * whole })
 }
 
 /// The surface that a place is on.
@@ -167,8 +193,9 @@ fn edge(sampler: &Sampler<'_>, site: &Site, step: f64) -> Option<Edge> {
     let whole = gradient(sampler, site, step)?;
     let half = gradient(sampler, site, step / 2.0)?;
     let steepness = whole.length();
-    let smooth = steepness > 0.0 && half.length() <= SMOOTH * steepness;
-    smooth.then(|| Edge { site: *site, direction: whole.normalize_or_zero(), steepness })
+    let smooth =
+        steepness > 0.0 && (steepness / SMOOTH..=steepness * SMOOTH).contains(&half.length());
+    smooth.then(|| Edge { site: *site, direction: whole.normalize_or_zero() })
 }
 
 /// Change of the visible share of lamps, times what they would send, on the plane of a place, W/m³.
@@ -188,26 +215,28 @@ fn visible(sampler: &Sampler<'_>, site: &Site, at: DVec2) -> Option<f64> {
     contains(&surface.rings, at).then(|| sampler.direct(&Site { place, ..*site }).visible())
 }
 
-/// Width of a penumbra, m, and how far its middle is from a place in it, along the edge's direction.
-fn width(sampler: &Sampler<'_>, edge: &Edge, middle: DVec2) -> Option<(f64, f64)> {
+/// The penumbra that a place is in: from it both ways along the edge's direction, while light rises or falls.
+fn penumbra(sampler: &Sampler<'_>, edge: &Edge) -> Option<Penumbra> {
+    let surface = &sampler.surfaces.list[edge.site.surface];
+    let middle = surface.plane.flatten(edge.site.place);
     let step = STEP * sampler.surfaces.extent;
     let seen = |k: usize, sign: f64| {
         visible(sampler, &edge.site, middle + edge.direction * (sign * step * k as f64))
     };
+    // How far, and what share of the lamps is seen there.
     let walk = |sign: f64| {
         let mut last = seen(0, sign).unwrap_or_default();
         for k in 1..FARTHEST {
-            let Some(next) = seen(k, sign) else { return k as f64 };
-            // Over when the light turns, or hardly changes any more.
-            if (next - last) * sign < 1e-4 {
-                return k as f64;
-            }
+            // Over at a border, or when the light turns or hardly changes any more.
+            let next = seen(k, sign).filter(|next| (next - last) * sign >= 1e-4);
+            let Some(next) = next else { return (step * k as f64, last) };
             last = next;
         }
-        FARTHEST as f64
+        (step * FARTHEST as f64, last)
     };
-    let (up, down) = (walk(1.0) * step, walk(-1.0) * step);
-    (up + down > 0.0).then_some((up + down, (up - down) / 2.0))
+    let ((up, most), (down, least)) = (walk(1.0), walk(-1.0));
+    let penumbra = Penumbra { width: up + down, centre: (up - down) / 2.0, contrast: most - least };
+    (penumbra.width > 0.0).then_some(penumbra)
 }
 
 /// The part of the line from `middle - along` to `middle + along` around its middle that is on a site's

@@ -154,6 +154,7 @@ fn counts(run: &Run) -> Vec<Cell> {
         cell("divided_gradient", divided.gradient),
         cell("divided_shadow_edge", divided.shadow_edge),
         cell("divided_contact", divided.contact),
+        cell("divided_discontinuity", divided.discontinuity),
         cell("deepest_level", run.levels.len().saturating_sub(1)),
         cell("hanging", run.hanging),
         cell("smallest_angle_degrees", run.angles.smallest),

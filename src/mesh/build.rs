@@ -51,6 +51,8 @@ impl Mesh {
             elements: Vec::new(),
             vertices: Vec::new(),
             index: VertexIndex::new(surfaces),
+            limit: settings.max_elements.unwrap_or(usize::MAX),
+            is_full: false,
         };
         for (number, surface) in surfaces.list.iter().enumerate() {
             let cuts = Cuts {

@@ -21,6 +21,9 @@ pub use statistics::{Divided, SizeBin};
 
 use build::VertexIndex;
 
+/// Parts of an element that is divided, at most.
+const MOST_PARTS: usize = 4;
+
 /// Corners of an element, counter-clockwise.
 pub type Corners = SmallVec<[VertexId; 4]>;
 
@@ -34,6 +37,9 @@ pub struct Mesh {
     /// The corners of elements, and the places where light was evaluated to judge them.
     pub vertices: Vec<Vertex>,
     index: VertexIndex,
+    /// Most elements, see [`Settings::max_elements`](crate::settings::Settings::max_elements).
+    limit: usize,
+    is_full: bool,
 }
 
 /// A coarse piece of a surface: it shoots.
@@ -154,6 +160,19 @@ impl Vertex {
 }
 
 impl Mesh {
+    /// Whether so many elements more may be divided; if not, the mesh is full.
+    pub fn has_room_for(&mut self, divisions: usize) -> bool {
+        let parts = divisions.saturating_mul(MOST_PARTS);
+        let fits = self.elements.len().saturating_add(parts) <= self.limit;
+        self.is_full |= !fits;
+        fits
+    }
+
+    /// True if elements were left whole because there would have been too many.
+    pub fn is_full(&self) -> bool {
+        self.is_full
+    }
+
     /// The elements that have not been divided, in the order in which they were made.
     pub fn leaves(&self) -> impl Iterator<Item = ElementId> + '_ {
         (0..self.elements.len() as u32).map(ElementId).filter(|&e| self[e].is_leaf())

@@ -135,6 +135,8 @@ impl Plot<'_> {
             .configure_mesh()
             .light_line_style(TRANSPARENT)
             .bold_line_style(BLACK.mix(0.12))
+            .x_labels(labels(self.across))
+            .y_labels(labels(self.up))
             .x_desc(self.across.name)
             .y_desc(self.up.name)
             .x_label_formatter(&|x| label(self.across, *x))
@@ -222,10 +224,16 @@ impl Plot<'_> {
     }
 }
 
+/// Lines across the plot; those of logarithmic axes without a label do not count.
+fn labels(axis: Axis<'_>) -> usize {
+    if axis.logarithmic { 24 } else { 8 }
+}
+
 /// What stands beside a line across the plot: on logarithmic axes only at 1, 2, and 5, since others crowd.
 fn label(axis: Axis<'_>, value: f64) -> String {
     let leading = value / 10_f64.powf(value.abs().log10().floor());
-    let crowds = axis.logarithmic && ![1.0, 2.0, 5.0, 10.0].iter().any(|x| (x - leading).abs() < 1e-6);
+    let crowds =
+        axis.logarithmic && ![1.0, 2.0, 5.0, 10.0].iter().any(|x| (x - leading).abs() < 1e-6);
     if crowds { String::new() } else { short(value) }
 }
 
@@ -234,7 +242,7 @@ fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
         "0".to_owned()
-    } else if size >= 1e6 || size < 1e-3 {
+    } else if !(1e-3..1e6).contains(&size) {
         format!("{x:.0e}")
     } else {
         let digits = (2 - size.log10().floor() as i32).max(0) as usize;

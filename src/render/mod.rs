@@ -25,6 +25,7 @@ pub use automatic_camera::automatic_camera;
 pub use display::{Display, displayed};
 pub use picture::{Picture, RenderOptions, Subject, render, render_solved};
 pub use rays::close_up;
+pub(crate) use save::smallest_png;
 pub use save::{check_writable, png, save};
 pub use shade::Solved;
 pub use view::View;

@@ -3,7 +3,8 @@
 use std::io;
 use std::path::Path;
 
-use image::{DynamicImage, ImageFormat, Rgb32FImage};
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{DynamicImage, ImageFormat, Rgb32FImage, RgbImage};
 
 use super::display::{Display, displayed};
 use super::picture::Picture;
@@ -28,12 +29,19 @@ pub fn save(picture: &Picture, path: &Path, display: &Display) -> Result<()> {
     file::replace(path, |out| image.write_to(out, format).map_err(io::Error::other))
 }
 
-/// The bytes of a PNG of `picture` as `display` shows it, in 8-bit sRGB.
+/// The bytes of a PNG of `picture` as `display` shows it, in 8-bit sRGB, as few as there can be.
 pub fn png(picture: &Picture, display: &Display) -> Vec<u8> {
-    let mut bytes = io::Cursor::new(Vec::new());
-    let written = displayed(picture, display).write_to(&mut bytes, ImageFormat::Png);
+    smallest_png(&displayed(picture, display))
+}
+
+/// The bytes of a PNG, packed at leisure.
+pub(crate) fn smallest_png(image: &RgbImage) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let encoder =
+        PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
+    let written = image.write_with_encoder(encoder);
     debug_assert!(written.is_ok(), "memory takes every byte of a picture");
-    bytes.into_inner()
+    bytes
 }
 
 /// Finds out before long work whether [`save`] could write to `path`; makes missing directories.

@@ -77,6 +77,9 @@ pub(super) fn refine(
         let verdicts: Vec<Option<Split>> = judged
             .map(|(&e, middle)| divide((world, mesh), (&oracle, &lines), e, middle))
             .collect();
+        if !mesh.has_room_for(verdicts.iter().flatten().count()) {
+            return;
+        }
         let mut parts = Vec::new();
         for ((&element, middle), verdict) in candidates.iter().zip(&middles).zip(verdicts) {
             if let Some(split) = verdict {

@@ -4,7 +4,7 @@ use super::direct_pass::reflects;
 use super::gather::Gatherer;
 use super::{Observer, Phase};
 use crate::colour::Rgb;
-use crate::mesh::{ElementId, Mesh, Middle, Vertex, VertexId};
+use crate::mesh::{ElementId, Mesh, Middle, Split, Vertex, VertexId};
 use crate::refine::Oracle;
 use crate::settings::Settings;
 use crate::surface::polygon::distance;
@@ -43,18 +43,27 @@ pub(super) fn refine(
 }
 
 /// Divides the leaves among the candidates that interpolation does not do justice, and returns the
-/// parts of all such.
+/// parts of all such; none if there is no room for them.
 fn divide(
     oracle: &Oracle,
     mesh: &mut Mesh,
     candidates: &[ElementId],
     middles: &[Middle],
 ) -> Vec<ElementId> {
-    let mut parts = Vec::new();
-    for (&element, middle) in candidates.iter().zip(middles) {
+    let verdict = |(&element, middle): (&ElementId, &Middle)| {
         let reflectance = mesh[mesh[element].patch].reflectance;
         let shown = |v: &Vertex| reflectance * v.indirect.unwrap_or(Rgb::ZERO);
-        let Some(split) = oracle.judge((mesh, element), middle, shown, 0.0) else { continue };
+        oracle.judge((mesh, element), middle, shown, 0.0).map(|split| (element, split))
+    };
+    let verdicts: Vec<Option<(ElementId, Split)>> =
+        candidates.iter().zip(middles).map(verdict).collect();
+    let divided = verdicts.iter().flatten().filter(|(e, _)| mesh[*e].is_leaf()).count();
+    if !mesh.has_room_for(divided) {
+        return Vec::new();
+    }
+    let mut parts = Vec::new();
+    for (verdict, middle) in verdicts.into_iter().zip(middles) {
+        let Some((element, split)) = verdict else { continue };
         if mesh[element].is_leaf() {
             let reason = oracle.reason((mesh, element), split, middle);
             mesh.split(element, split, reason);

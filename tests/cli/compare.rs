@@ -82,3 +82,31 @@ fn what_cannot_be_compared_is_refused_before_the_scene_is_read() {
     run(&["--uniform", "0"]).refused(2, &["uniform"]);
     run(&["--reference", "missing.csv"]).refused(1, &["missing.obj"]);
 }
+
+#[test]
+fn the_page_holds_the_verdict_and_all_it_rests_on() {
+    let place = Place::new();
+    let scene = scene("blocker.obj");
+    let compare = ["compare", &scene, "-o", "deep/report.html"];
+    let told = place.run(&[&compare[..], &QUICK].concat()).done().stdout;
+    let page = std::fs::read_to_string(place.path("deep/report.html")).expect("a page is written");
+    let verdict = told.lines().find(|line| line.contains("elements and")).expect("a verdict");
+    assert!(page.contains(verdict), "{verdict}");
+    for part in [
+        "SHA-256",
+        "radiosity compare",
+        "Where they differ most",
+        "Across a shadow",
+        "Signed errors",
+        "Convergence",
+        "All runs",
+        "The meshes",
+        "Both meshes",
+        "What to doubt",
+        "id=\"comparison\"",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("http:") && !page.contains("https:"), "the page asks for nothing");
+    assert!(page.len() < 8_000_000, "{} bytes", page.len());
+}

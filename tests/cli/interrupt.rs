@@ -31,3 +31,55 @@ fn ctrl_c_leaves_a_valid_unfinished_solution() {
     let (mesh, stamp) = load_solved(&place.path("a.glb")).expect("the GLB can be read again");
     assert!(!stamp.finished && !mesh.triangles.is_empty());
 }
+
+#[test]
+fn a_limit_of_time_leaves_a_valid_unfinished_solution() {
+    let place = Place::new();
+    let scene = scene("office.obj");
+    let solve = ["solve", scene.as_str(), "--json", "-o", "a.glb", "--time-limit", "0.2s"];
+    let outcome = place.run(&solve).done();
+    assert!(outcome.stderr.contains("the time is over"), "{}", outcome.stderr);
+    assert_eq!(outcome.json()["stop"], "interrupted");
+    let (mesh, stamp) = load_solved(&place.path("a.glb")).expect("the GLB can be read again");
+    assert!(!stamp.finished && !mesh.triangles.is_empty());
+}
+
+#[test]
+fn a_limit_of_memory_ends_the_refinement_and_says_so() {
+    let place = Place::new();
+    let scene = scene("cornell-box.obj");
+    let solve = ["solve", scene.as_str(), "--json", "-o", "a.glb", "--quality", "draft"];
+    let free = place.run(&solve).done();
+    let tight = place.run(&[&solve[..], &["--max-memory", "36MB"]].concat()).done();
+    let elements = |outcome: &Outcome| outcome.json()["elements"].as_u64();
+    assert!(elements(&tight) < elements(&free) && elements(&tight) <= Some(4_000_000 / 3000));
+    assert_eq!(tight.json()["finished"], true);
+    let told = |outcome: &Outcome| outcome.stderr.contains("memory has ended the refinement");
+    assert!(told(&tight) && !told(&free), "{}", tight.stderr);
+    let fine = [&solve[..], &["--uniform", "0.001", "--max-memory", "100MB"]].concat();
+    place.run(&fine).refused(2, &["uniform"]);
+}
+
+/// What a killed command leaves is nothing, or the file it had finished.
+#[test]
+fn killed_at_any_moment_it_leaves_no_broken_file() {
+    let place = Place::new();
+    let scene = scene("cornell-box.obj");
+    let solve = ["solve", scene.as_str(), "-o", "a.glb", "--quality", "draft", "--quiet"];
+    let mut whole = 0;
+    for kill in 0..20_u64 {
+        let _ = std::fs::remove_file(place.path("a.glb"));
+        let mut child = place.command(&solve).spawn().expect("the command can be run");
+        // Moments from the very beginning to after the end, spread by the golden ratio.
+        let share = (kill as f64 * 0.618_034).fract();
+        std::thread::sleep(std::time::Duration::from_secs_f64(1.2 * share));
+        let _ = child.kill();
+        child.wait().expect("it ends");
+        if place.path("a.glb").exists() {
+            let (mesh, stamp) = load_solved(&place.path("a.glb")).expect("the GLB is whole");
+            assert!(stamp.finished && !mesh.triangles.is_empty());
+            whole += 1;
+        }
+    }
+    assert!(whole < 20, "no kill came in time");
+}

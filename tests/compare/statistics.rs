@@ -41,7 +41,11 @@ fn every_leaf_and_every_division_is_counted_once() {
     assert_eq!(mesh.leaves_by_level().iter().sum::<usize>(), leaves);
     assert_eq!(mesh.leaves_by_size().iter().map(|bin| bin.leaves).sum::<usize>(), leaves);
     let divided = mesh.divided();
-    let reasons = divided.uniform + divided.gradient + divided.shadow_edge + divided.contact;
+    let reasons = divided.uniform
+        + divided.gradient
+        + divided.shadow_edge
+        + divided.discontinuity
+        + divided.contact;
     assert_eq!(reasons, mesh.elements.len() - leaves);
     assert!(divided.uniform == 0 && divided.shadow_edge > 0, "{divided:?}");
     for (octave, bin) in mesh.leaves_by_size().iter().enumerate() {
@@ -64,7 +68,8 @@ fn work_is_the_same_with_any_number_of_threads_and_grows_with_the_mesh() {
     let fine = work(2, &Settings { tolerance: 0.02, ..coarse() });
     assert!(fine.direct > one.direct && fine.gathering > one.gathering, "{one:?} {fine:?}");
     let by_rays = work(2, &Settings { shadow_rays: Some(16), ..coarse() });
-    assert!(by_rays.rays > 16 * one.direct / 2, "{by_rays:?}");
+    // To each triangle of a lamp, where something may be in the way.
+    assert!(by_rays.rays > 0 && by_rays.rays.is_multiple_of(16), "{by_rays:?}");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod lights;
+mod limits;
 mod report;
 mod scene;
 pub(crate) mod values;
@@ -9,6 +10,7 @@ mod view;
 
 pub(crate) use accuracy::{AccuracyOptions, MethodOptions};
 pub(crate) use lights::HINT;
+pub(crate) use limits::{LimitOptions, memory};
 pub(crate) use report::{ReportOptions, TalkOptions};
 pub(crate) use scene::SceneOptions;
 pub(crate) use view::{CameraChoice, PictureOptions, display};

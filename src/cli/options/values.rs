@@ -65,6 +65,16 @@ pub(crate) fn duration(text: &str) -> Result<Duration, String> {
         .ok_or_else(|| "write a time above zero such as 90s or 2min".to_owned())
 }
 
+/// `500MB`, `4GB` or bytes.
+pub(crate) fn memory(text: &str) -> Result<u64, String> {
+    let units = [("kB", 1e3), ("MB", 1e6), ("GB", 1e9), ("B", 1.0)];
+    let found = units.iter().find_map(|(name, unit)| Some((text.strip_suffix(name)?, *unit)));
+    let (amount, unit) = found.unwrap_or((text, 1.0));
+    let bytes = number(amount.trim_end()).ok().map(|amount| amount * unit);
+    let sound = bytes.filter(|bytes| (1.0..1e18).contains(bytes));
+    sound.map(|bytes| bytes as u64).ok_or_else(|| "write a size such as 500MB or 4GB".to_owned())
+}
+
 /// A unit's name, or metres per unit.
 pub(crate) fn units(text: &str) -> Result<f64, String> {
     match text {

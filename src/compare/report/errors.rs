@@ -1,10 +1,9 @@
 //! Errors where they can be seen: in a picture, and on a mesh.
 
 use std::f64::consts::PI;
-use std::io::Cursor;
 
 use glam::DVec3;
-use image::{ImageFormat, RgbImage};
+use image::RgbImage;
 use rayon::prelude::*;
 
 use crate::colour::{Rgb, luminance};
@@ -16,14 +15,17 @@ use crate::compare::sentences::percent;
 use crate::page::colour_maps;
 use crate::page::{Markup, html};
 use crate::reconstruct::{Irradiance, TriMesh};
-use crate::render::Picture;
 use crate::render::map::round_above;
+use crate::render::{Picture, smallest_png};
 
 /// Share of the pixels whose errors the scale holds.
 const HELD: f64 = 0.98;
 
 /// Lower end of the scale of magnitudes over its upper end.
 const DEPTH: f64 = 0.01;
+
+/// Steps between the ends of a scale; even, so that one is in the middle.
+const STEPS: f64 = 40.0;
 
 /// sRGB-coded grey where there is nothing to compare.
 const NOTHING: [u8; 3] = [128; 3];
@@ -62,14 +64,14 @@ impl ErrorMap {
         (top..top + height).map(row).sum()
     }
 
-    /// Blue where there is too little light, orange where there is too much.
+    /// Blue where there is too little light, orange where there is too much; in steps, which pack better.
     pub(super) fn signed_png(&self, scale: &ErrorScale) -> Vec<u8> {
-        self.png(|error| colour_maps::diverging_at((error / scale.limit + 1.0) / 2.0))
+        self.png(|error| colour_maps::diverging_at(stepped((error / scale.limit + 1.0) / 2.0)))
     }
 
     /// Dark where the error is small.
     pub(super) fn absolute_png(&self, scale: &ErrorScale) -> Vec<u8> {
-        self.png(|error| colour_maps::viridis_at(scale.place(error)))
+        self.png(|error| colour_maps::viridis_at(stepped(scale.place(error))))
     }
 
     fn png(&self, colour: impl Fn(f64) -> [u8; 3]) -> Vec<u8> {
@@ -77,10 +79,7 @@ impl ErrorMap {
             let error = self.errors[(y * self.width + x) as usize];
             image::Rgb(error.map_or(NOTHING, &colour))
         });
-        let mut bytes = Cursor::new(Vec::new());
-        let written = image.write_to(&mut bytes, ImageFormat::Png);
-        debug_assert!(written.is_ok(), "memory takes every byte of a picture");
-        bytes.into_inner()
+        smallest_png(&image)
     }
 
     /// Half, 95 of a hundred, and all of the pixels.
@@ -96,6 +95,11 @@ impl ErrorMap {
         sizes.sort_by(f64::total_cmp);
         sizes
     }
+}
+
+/// The nearest of a few places along a scale.
+fn stepped(place: f64) -> f64 {
+    (place.clamp(0.0, 1.0) * STEPS).round() / STEPS
 }
 
 fn quantile(rising: &[f64], share: f64) -> f64 {

@@ -43,8 +43,9 @@ fn reference(comparison: &Comparison) -> String {
     format!(
         "The reference is the radiosity at {area} places spread by area and {shadow} along the edges of shadows: \
          {origin}. Its standard error is {of_area} and {of_shadow} of the mean; that is taken off the errors, which \
-         below {all} and {edges} are not resolved. The pictures and maps of errors have another reference, \
-         the finest adaptive solution with exact direct light, whose reflected light no run is told from."
+         below {all} and {edges} are not resolved. Pictures and maps of errors have another \
+         reference, the finest adaptive solution with exact direct light: they say nothing about errors of reflected \
+         light."
     )
 }
 

@@ -35,9 +35,12 @@ pub(super) fn runs(comparison: &Comparison) -> Markup {
     ];
     html! {
         h2 { "All runs" }
+        p {
+            "Errors are root mean squares unless they say otherwise, as shares of the mean radiosity; the reference's "
+            "own variance is taken off. Memory is what the run added to that in use before."
+        }
         (page::table(&Table {
-            caption: "Errors are root mean squares unless they say otherwise, as shares of the mean radiosity; the \
-                      reference's own variance is taken off. Memory is what the run added to that in use before.",
+            caption: "",
             header: &header,
             rows: comparison.runs.iter().map(row).collect(),
             file: "runs.csv",
@@ -88,9 +91,12 @@ pub(super) fn statistics(comparison: &Comparison) -> Markup {
     let runs = &comparison.runs;
     html! {
         h2 { "The meshes" }
+        p {
+            "Why elements were divided, how slender triangles are, and how many vertices would have hung on an edge of "
+            "a neighbour, had they not been made part of it."
+        }
         (page::table(&Table {
-            caption: "Why elements were divided, how slender triangles are, and how many vertices would have hung on \
-                      an edge of a neighbour, had they not been made part of it.",
+            caption: "",
             header: &[
                 "mesh", "size, m, or tolerance", "for uniformity", "gradient", "shadow edge", "discontinuity line",
                 "contact", "smallest angle, °", "below 10°, %", "hanging, resolved",
@@ -154,10 +160,7 @@ fn histogram(
     let header: Vec<&str> =
         ["mesh", ""].into_iter().chain(names.iter().map(String::as_str)).collect();
     let row = |run: &Run| {
-        let counts = (0..names.len()).map(|k| match count(run, k) {
-            0 => Cell::Empty,
-            count => Cell::count(count),
-        });
+        let counts = (0..names.len()).map(|k| Cell::count(count(run, k)));
         [Cell::text(run.family.name()), Cell::number(run.knob, 4)]
             .into_iter()
             .chain(counts)

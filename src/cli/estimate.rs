@@ -1,0 +1,46 @@
+//! What to expect of a solution before work begins.
+
+use std::fmt::{self, Display, Formatter};
+
+use radiosity::mesh::Mesh;
+use radiosity::{Settings, Surfaces};
+
+use super::options::memory;
+
+/// Elements to a patch that rooms have at the tolerance [`PLAIN`], within a factor of two.
+const PER_PATCH: f64 = 15.0;
+const PLAIN: f64 = 0.02;
+
+/// How their number grows as the tolerance shrinks.
+const GROWTH: f64 = 0.6;
+
+/// What a solution will be made of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Estimate {
+    patches: usize,
+    elements: usize,
+    /// True if the number of elements is certain.
+    exact: bool,
+}
+
+impl Estimate {
+    pub(crate) fn new(surfaces: &Surfaces, settings: &Settings) -> Self {
+        let mesh = Mesh::new(surfaces, settings);
+        let patches = mesh.patches.len();
+        if settings.uniform.is_some() {
+            return Self { patches, elements: mesh.leaves().count(), exact: true };
+        }
+        let finer = (PLAIN / settings.tolerance).powf(GROWTH);
+        let elements = (patches as f64 * (PER_PATCH * finer).max(1.0)) as usize;
+        Self { patches, elements, exact: false }
+    }
+}
+
+impl Display for Estimate {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { patches, elements, exact } = *self;
+        let some = if exact { "" } else { "some " };
+        let megabytes = memory(elements) / 1_000_000;
+        write!(f, "{patches} patches; expecting {some}{elements} elements, {megabytes} MB")
+    }
+}

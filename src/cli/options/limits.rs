@@ -1,0 +1,59 @@
+//! How long work may take, and how much memory.
+
+use std::time::Duration;
+
+use clap::Args;
+use radiosity::Settings;
+
+use super::values;
+
+/// Bytes of memory that an element takes, with all that is made of it: vertices, triangles, what is gathered at
+/// them. Measured on rooms of up to a million elements, rounded up.
+const PER_ELEMENT: u64 = 3_000;
+
+/// Bytes that are taken in any case.
+const AT_LEAST: u64 = 32_000_000;
+
+/// Share of the memory that is there which may be taken by default.
+const SHARE: f64 = 0.8;
+
+/// Where work ends though it is not done.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Limits")]
+pub(crate) struct LimitOptions {
+    /// Stop after this time and write what there is, marked as unfinished: 90s, 10min, 2h
+    #[arg(long, value_name = "TIME", value_parser = values::duration)]
+    time_limit: Option<Duration>,
+
+    /// Divide no further where memory would grow beyond this, about: 500MB, 4GB
+    ///
+    /// Default: four fifths of what the system says is free.
+    #[arg(long, value_name = "SIZE", value_parser = values::memory)]
+    max_memory: Option<u64>,
+}
+
+impl LimitOptions {
+    pub(crate) fn time(&self) -> Option<Duration> {
+        self.time_limit
+    }
+
+    /// The settings, with as many elements as memory allows.
+    pub(crate) fn limited(&self, settings: Settings) -> Settings {
+        let bytes = self.max_memory.or_else(free).map(|bytes| bytes.saturating_sub(AT_LEAST));
+        let most = bytes.map(|bytes| usize::try_from(bytes / PER_ELEMENT).unwrap_or(usize::MAX));
+        Settings { max_elements: most, ..settings }
+    }
+}
+
+/// Memory in bytes that so many elements take, about.
+pub(crate) fn memory(elements: usize) -> u64 {
+    AT_LEAST + elements as u64 * PER_ELEMENT
+}
+
+/// What may be taken of the free memory, bytes; `None` where the system does not tell.
+fn free() -> Option<u64> {
+    let about = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = about.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some((kilobytes as f64 * 1024.0 * SHARE) as u64)
+}
