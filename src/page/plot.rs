@@ -225,7 +225,8 @@ impl Plot<'_> {
 /// What stands beside a line across the plot: on logarithmic axes only at 1, 2, and 5, since others crowd.
 fn label(axis: Axis<'_>, value: f64) -> String {
     let leading = value / 10_f64.powf(value.abs().log10().floor());
-    let crowds = axis.logarithmic && ![1.0, 2.0, 5.0, 10.0].iter().any(|x| (x - leading).abs() < 1e-6);
+    let crowds =
+        axis.logarithmic && ![1.0, 2.0, 5.0, 10.0].iter().any(|x| (x - leading).abs() < 1e-6);
     if crowds { String::new() } else { short(value) }
 }
 
@@ -234,7 +235,7 @@ fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
         "0".to_owned()
-    } else if size >= 1e6 || size < 1e-3 {
+    } else if !(1e-3..1e6).contains(&size) {
         format!("{x:.0e}")
     } else {
         let digits = (2 - size.log10().floor() as i32).max(0) as usize;
