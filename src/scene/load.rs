@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::notes::listed;
-use super::{LoadOptions, MAX_REFLECTANCE, Scene, gltf, obj, repair};
+use super::{LoadOptions, MAX_REFLECTANCE, Scene, gltf, obj, repair, settle_sides};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
 
@@ -22,11 +22,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene> {
     refuse_huge_coordinates(path, &scene)?;
     repair::clean(&mut scene);
     limit_materials(&mut scene);
-    if let Some(two_sided) = options.two_sided {
-        for material in &mut scene.materials {
-            material.double_sided = two_sided;
-        }
-    }
+    settle_sides(&mut scene, options.two_sided);
     if scene.faces.is_empty() {
         let reasons: String = scene.notes.iter().map(|note| format!("; {note}")).collect();
         return Err(Error::Scene(format!("{}: the scene has no faces{reasons}", path.display())));

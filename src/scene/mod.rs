@@ -13,6 +13,8 @@ mod notes;
 mod obj;
 mod polygon;
 mod repair;
+mod sides;
+mod sight;
 mod texture;
 
 use glam::{DVec2, DVec3, Vec3};
@@ -25,6 +27,7 @@ pub use light::Light;
 pub use load::load;
 pub use material::{MAX_REFLECTANCE, Material, Texture};
 pub(crate) use polygon::area_vector;
+pub use sides::{Sides, settle_sides};
 pub(crate) use texture::decode;
 
 /// A scene of polygons, in metres.
@@ -84,13 +87,13 @@ impl Default for Face {
 pub struct LoadOptions {
     /// Metres per unit of an OBJ file (glTF is in metres by definition), default 1.
     pub metres_per_unit: f64,
-    /// `Some` overrides what materials say about their back sides.
-    pub two_sided: Option<bool>,
+    /// Which sides of faces reflect and emit.
+    pub two_sided: Sides,
 }
 
 impl Default for LoadOptions {
     fn default() -> Self {
-        Self { metres_per_unit: 1.0, two_sided: None }
+        Self { metres_per_unit: 1.0, two_sided: Sides::Auto }
     }
 }
 

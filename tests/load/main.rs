@@ -6,6 +6,7 @@ mod gltf;
 mod mutated;
 mod obj;
 mod refused;
+mod sides;
 
 use folder::{Folder, red_png};
 
