@@ -16,6 +16,7 @@ mod repair;
 mod sides;
 mod sight;
 mod texture;
+mod weld;
 
 use glam::{DVec2, DVec3, Vec3};
 use smallvec::SmallVec;

@@ -2,6 +2,7 @@
 
 mod asset;
 mod folder;
+mod found;
 mod gltf;
 mod mutated;
 mod obj;
