@@ -32,7 +32,7 @@ pub(super) fn usual_extent(surfaces: &[Surface]) -> f64 {
 #[cfg(test)]
 mod tests {
     use crate::scene::{Face, Material, Scene};
-    use crate::surfaces_of;
+    use crate::surface::surfaces_of;
     use glam::DVec3;
 
     /// Faces of a cube of 4 m, and a square of this size under it.

@@ -96,7 +96,7 @@ fn inner_point(ring: &Ring) -> glam::DVec2 {
 mod tests {
     use super::*;
     use crate::scene::{Face, Material};
-    use crate::surfaces_of;
+    use crate::surface::surfaces_of;
 
     const SQUARES: [[f64; 3]; 8] = [
         [0., 0., 0.],
