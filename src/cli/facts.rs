@@ -63,6 +63,12 @@ impl Facts {
         if !scene.is_lit() {
             notes.push(format!("nothing emits light; this cannot be solved; {HINT}"));
         }
+        if surfaces.extent < 0.9 * scene.extent() {
+            notes.push(format!(
+                "some surfaces are much larger than the rest; sizes go by the rest, {:.3} m across",
+                surfaces.extent
+            ));
+        }
         let material =
             |(number, material)| MaterialFacts::new(scene, material, number, (surfaces, mesh));
         Self {

@@ -94,7 +94,7 @@ impl FormFactors {
         let scene = self.scene.load()?;
         scene.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
         let surfaces = patches_from(faces_of(&scene), &settings);
-        settings.validate_for(surfaces.area(), surfaces.extent)?;
+        settings.validate_for(surfaces.divided_area(), surfaces.extent)?;
         let mesh = Mesh::new(&surfaces, &settings);
         tell_memory(&mesh, &meter)?;
         let occluders = Occluders::new(&surfaces);

@@ -32,7 +32,7 @@ impl Info {
         self.report.talk.use_threads()?;
         let scene = self.scene.load()?;
         let surfaces = surfaces_of(&scene);
-        settings.validate_for(surfaces.area(), surfaces.extent)?;
+        settings.validate_for(surfaces.divided_area(), surfaces.extent)?;
         let mesh = Mesh::new(&surfaces, &settings);
         let facts = Facts::new(self.scene.path, &scene, &surfaces, &mesh);
         match (self.report.json, self.report.talk.quiet) {

@@ -57,7 +57,7 @@ impl Mesh {
         for (number, surface) in surfaces.list.iter().enumerate() {
             let cuts = Cuts {
                 segments: &surface.contacts,
-                size: settings.patch_length(surfaces.extent),
+                size: settings.patch_length(surfaces.extent.max(surface.extent())),
                 tolerance: surfaces.tolerance,
             };
             for piece in convex_pieces(&surface.rings, &cuts) {

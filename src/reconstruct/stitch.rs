@@ -44,28 +44,49 @@ impl Places {
         let margin = DVec3::splat(self.tolerance);
         let low = cell((from.min(to) - margin) / self.cell_size);
         let high = cell((from.max(to) + margin) / self.cell_size);
-        let mut found: Vec<(f64, u32)> = Vec::new();
-        for x in low[0]..=high[0] {
-            for y in low[1]..=high[1] {
-                for z in low[2]..=high[2] {
-                    for &place in self.cells.get(&[x, y, z]).into_iter().flatten() {
-                        let offset = self.at(place) - from;
-                        let position = offset.dot(along);
-                        let aside = (offset - along * position).length();
-                        let inside =
-                            position > self.tolerance && position < length - self.tolerance;
-                        if place != a && place != b && inside && aside <= self.tolerance {
-                            found.push((position, place));
-                        }
-                    }
-                }
-            }
-        }
+        let measured = |place: u32| {
+            let offset = self.at(place) - from;
+            let position = offset.dot(along);
+            let aside = (offset - along * position).length();
+            let inside = position > self.tolerance && position < length - self.tolerance;
+            let between = place != a && place != b && inside && aside <= self.tolerance;
+            between.then_some((position, place))
+        };
+        let mut found: Vec<(f64, u32)> = self.within(low, high).filter_map(measured).collect();
         found.sort_by(|x, y| x.0.total_cmp(&y.0));
         found.into_iter().map(|(_, place)| place).collect()
+    }
+
+    /// The places in a box of cells, or all of them where that is the shorter way: a plain round a house has
+    /// more cells than there are places.
+    fn within(&self, low: [i32; 3], high: [i32; 3]) -> Box<dyn Iterator<Item = u32> + '_> {
+        let count = |axis: usize| f64::from(high[axis]) - f64::from(low[axis]) + 1.0;
+        if count(0) * count(1) * count(2) > self.points.len() as f64 {
+            return Box::new(0..self.points.len() as u32);
+        }
+        let cells = (low[0]..=high[0]).flat_map(move |x| {
+            (low[1]..=high[1]).flat_map(move |y| (low[2]..=high[2]).map(move |z| [x, y, z]))
+        });
+        Box::new(cells.filter_map(|cell| self.cells.get(&cell)).flatten().copied())
     }
 }
 
 fn cell(scaled: DVec3) -> [i32; 3] {
     scaled.floor().to_array().map(|x| x as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_edge_in_a_fine_grid_finds_its_places_at_once() {
+        let mut weld = Weld::new(1e-6);
+        let along = DVec3::new(3e5, 2e5, 1e5);
+        for share in [0.0, 0.75, 0.5, 1.0] {
+            weld.number(along * share);
+        }
+        weld.number(DVec3::ONE);
+        assert_eq!(Places::new(&weld, 1.0, 1e-6).between(0, 3), [2, 1]);
+    }
 }

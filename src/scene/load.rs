@@ -1,9 +1,10 @@
 //! From a file of any known kind to a cleaned scene.
 
+use std::ops::Range;
 use std::path::Path;
 
-use super::notes::listed;
-use super::{LoadOptions, MAX_REFLECTANCE, Scene, gltf, obj, repair};
+use super::notes::{counted, listed};
+use super::{LoadOptions, MAX_REFLECTANCE, Scene, gltf, obj, repair, settle_sides};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
 
@@ -22,16 +23,35 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene> {
     refuse_huge_coordinates(path, &scene)?;
     repair::clean(&mut scene);
     limit_materials(&mut scene);
-    if let Some(two_sided) = options.two_sided {
-        for material in &mut scene.materials {
-            material.double_sided = two_sided;
-        }
-    }
+    settle_sides(&mut scene, options.two_sided);
+    note_size(&mut scene);
     if scene.faces.is_empty() {
         let reasons: String = scene.notes.iter().map(|note| format!("; {note}")).collect();
         return Err(Error::Scene(format!("{}: the scene has no faces{reasons}", path.display())));
     }
+    shorten(&mut scene.notes);
     Ok(scene)
+}
+
+/// Sizes of scenes that are probably in metres, m.
+const USUAL: Range<f64> = 0.1..500.0;
+
+fn note_size(scene: &mut Scene) {
+    let extent = scene.extent();
+    if extent > 0.0 && !USUAL.contains(&extent) {
+        scene.notes.push(format!("the scene is {extent:.3} m across: is its unit the metre?"));
+    }
+}
+
+/// More notes than this say nothing more to a reader.
+const MOST_NOTES: usize = 60;
+
+fn shorten(notes: &mut Vec<String>) {
+    let more = notes.len().saturating_sub(MOST_NOTES);
+    if more > 0 {
+        notes.truncate(MOST_NOTES);
+        notes.push(format!("and {}", counted(more, "more note")));
+    }
 }
 
 fn read(path: &Path, options: &LoadOptions) -> Result<Scene> {

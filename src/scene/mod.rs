@@ -18,7 +18,10 @@ mod overrides;
 mod photometry;
 mod polygon;
 mod repair;
+mod sides;
+mod sight;
 mod texture;
+mod weld;
 
 use glam::{DVec2, DVec3, Vec3};
 use smallvec::SmallVec;
@@ -32,6 +35,7 @@ pub use load::load;
 pub use material::{MAX_REFLECTANCE, Material, Texture};
 pub use photometry::Photometry;
 pub(crate) use polygon::area_vector;
+pub use sides::{Sides, settle_sides};
 pub(crate) use texture::decode;
 
 /// A scene of polygons, in metres.
@@ -91,13 +95,13 @@ impl Default for Face {
 pub struct LoadOptions {
     /// Metres per unit of an OBJ file (glTF is in metres by definition), default 1.
     pub metres_per_unit: f64,
-    /// `Some` overrides what materials say about their back sides.
-    pub two_sided: Option<bool>,
+    /// Which sides of faces reflect and emit.
+    pub two_sided: Sides,
 }
 
 impl Default for LoadOptions {
     fn default() -> Self {
-        Self { metres_per_unit: 1.0, two_sided: None }
+        Self { metres_per_unit: 1.0, two_sided: Sides::Auto }
     }
 }
 

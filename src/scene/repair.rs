@@ -13,6 +13,7 @@ use super::notes::note_count;
 use super::polygon::{
     area_vector, bulge, flattened, is_affine, is_simple, longest_edge, triangulate,
 };
+use super::weld::weld_rounded;
 use super::{Face, Scene};
 
 /// Faces of less area, as a share of their longest edge squared, are dropped.
@@ -24,6 +25,7 @@ const MAX_BULGE: f64 = 1e-6;
 /// Repairs `scene` and notes what was done.
 pub(crate) fn clean(scene: &mut Scene) {
     weld(scene);
+    weld_rounded(scene);
     drop_degenerate(scene);
     settle_uvs(scene);
     split_difficult(scene);

@@ -163,7 +163,7 @@ pub fn solve_in_stages(
     mut observe: impl FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<(Solution, Vec<Solution>)> {
     settings.validate()?;
-    settings.validate_for(surfaces.area(), surfaces.extent)?;
+    settings.validate_for(surfaces.divided_area(), surfaces.extent)?;
     let mut observer = Observer { observe: &mut observe, flow: ControlFlow::Continue(()) };
     let mut mesh = Mesh::new(surfaces, settings);
     check_reflectances(surfaces, &mesh)?;

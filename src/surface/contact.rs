@@ -3,8 +3,11 @@
 //! Light jumps across such a line, so no element may lie on both sides of it. What hovers close over a
 //! surface counts as touching it: there, light falls nearly as steeply.
 
+use rayon::prelude::*;
+
 use super::Surface;
-use super::polygon::{Line, Segment, contains, distance, edges};
+use super::boxes::close_pairs;
+use super::polygon::{Line, Ring, Segment, contains, distance, edges};
 
 /// What faces a surface from less than this share of the scene's extent hovers close over it.
 const CLOSE: f64 = 2e-3;
@@ -25,29 +28,15 @@ struct Near {
 /// them in both.
 pub(super) fn find_contacts(surfaces: &mut [Surface], extent: f64, tolerance: f64) {
     let near = Near { tolerance, close: CLOSE * extent };
-    for (receiver, other) in neighbours(surfaces, near.close) {
-        let contacts = contacts(&surfaces[receiver], &surfaces[other], near);
+    let bounds: Vec<_> = surfaces.iter().map(Surface::bounds).collect();
+    let pairs = close_pairs(&bounds, near.close);
+    let found: Vec<Vec<Segment>> = pairs
+        .par_iter()
+        .map(|&(receiver, other)| contacts(&surfaces[receiver], &surfaces[other], near))
+        .collect();
+    for ((receiver, _), contacts) in pairs.into_iter().zip(found) {
         surfaces[receiver].contacts.extend(contacts);
     }
-}
-
-/// Ordered pairs of surfaces whose bounding boxes are this close, by a sweep along x.
-fn neighbours(surfaces: &[Surface], close: f64) -> Vec<(usize, usize)> {
-    let bounds: Vec<_> = surfaces.iter().map(Surface::bounds).collect();
-    let mut order: Vec<usize> = (0..surfaces.len()).collect();
-    order.sort_by(|&a, &b| bounds[a].0.x.total_cmp(&bounds[b].0.x));
-    let mut pairs = Vec::new();
-    for (k, &a) in order.iter().enumerate() {
-        let near = order[k + 1..].iter().take_while(|&&b| bounds[b].0.x <= bounds[a].1.x + close);
-        for &b in near {
-            let gap = (bounds[a].0 - bounds[b].1).max(bounds[b].0 - bounds[a].1).max_element();
-            if gap <= close {
-                pairs.extend([(a, b), (b, a)]);
-            }
-        }
-    }
-    pairs.sort_unstable();
-    pairs
 }
 
 /// The lines along which `other` meets the front or the plane of `receiver`, inside of it.
@@ -70,7 +59,7 @@ fn contacts(receiver: &Surface, other: &Surface, near: Near) -> Vec<Segment> {
     let lies = |h: f64| h == 0.0 || hovers;
     let mut segments = edges_where(lies, receiver, other, &heights);
     segments.extend(piercing_line(receiver, other, &heights));
-    segments.into_iter().flat_map(|segment| inside(receiver, segment, tolerance)).collect()
+    segments.into_iter().flat_map(|segment| inside(&receiver.rings, segment, tolerance)).collect()
 }
 
 /// Edges of `other`, seen along the receiver's normal, whose ends are at certain heights.
@@ -109,9 +98,9 @@ fn piercing_line(receiver: &Surface, other: &Surface, heights: &[Vec<f64>]) -> V
     crossings.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 
-/// The parts of a segment inside a surface and not on its outline.
-fn inside(surface: &Surface, segment: Segment, tolerance: f64) -> Vec<Segment> {
-    let outline = || surface.rings.iter().flat_map(|ring| edges(ring));
+/// The parts of a segment inside rings and not on its outline.
+pub(super) fn inside(rings: &[Ring], segment: Segment, tolerance: f64) -> Vec<Segment> {
+    let outline = || rings.iter().flat_map(|ring| edges(ring));
     let mut parts = vec![segment];
     for edge in outline() {
         let line = Line::through(edge);
@@ -124,7 +113,7 @@ fn inside(surface: &Surface, segment: Segment, tolerance: f64) -> Vec<Segment> {
     let is_inside = |&[a, b]: &Segment| {
         let middle = a.midpoint(b);
         a.distance(b) > tolerance
-            && contains(&surface.rings, middle)
+            && contains(rings, middle)
             && outline().all(|edge| distance(edge, middle) > tolerance)
     };
     parts.retain(is_inside);

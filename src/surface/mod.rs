@@ -1,8 +1,11 @@
 //! Planar polygons of one material, made by joining coplanar neighbours, and where others touch them.
 
+mod boxes;
 mod contact;
 pub mod cut;
 mod merge;
+mod outliers;
+mod overlap;
 mod picture;
 mod plane;
 pub mod polygon;
@@ -31,7 +34,8 @@ pub struct Surfaces {
     pub materials: Vec<Material>,
     /// The scene's textures.
     pub textures: Vec<Texture>,
-    /// Diagonal of the scene's bounding box, m.
+    /// Diagonal of the scene's bounding box, m, without what is very much larger than all the rest, like the
+    /// ground on which a house stands.
     pub extent: f64,
     /// Distances that count as zero, m.
     pub tolerance: f64,
@@ -71,8 +75,8 @@ const TOLERANCE: f64 = 2e-7;
 
 /// The surfaces of a scene and their contact lines.
 pub fn surfaces_of(scene: &Scene) -> Surfaces {
-    let tolerance = TOLERANCE * scene.extent();
-    with_contacts(of_regions(scene, merge::regions(scene, tolerance)))
+    let regions = merge::regions(scene, TOLERANCE * scene.extent());
+    with_contacts(of_regions(scene, overlap::without_overlaps(scene, regions)))
 }
 
 /// The faces of a scene, each a surface of its own, and their contact lines.
@@ -86,8 +90,6 @@ fn with_contacts(mut surfaces: Surfaces) -> Surfaces {
 }
 
 fn of_regions(scene: &Scene, regions: Vec<merge::Region>) -> Surfaces {
-    let extent = scene.extent();
-    let tolerance = TOLERANCE * extent;
     let mut list = Vec::new();
     for region in regions {
         if region.rings.is_empty() {
@@ -98,6 +100,8 @@ fn of_regions(scene: &Scene, regions: Vec<merge::Region>) -> Surfaces {
         list.push(front);
         list.extend(back);
     }
+    let extent = outliers::usual_extent(&list);
+    let tolerance = TOLERANCE * extent;
     Surfaces {
         list,
         objects: scene.objects.clone(),
@@ -113,6 +117,12 @@ impl Surfaces {
     /// Area of all surfaces, m².
     pub fn area(&self) -> f64 {
         self.list.iter().map(Surface::area).sum()
+    }
+
+    /// Area of all surfaces, m², that of those beyond [`Self::extent`] reduced as their patches are larger.
+    pub fn divided_area(&self) -> f64 {
+        let share = |surface: &Surface| (self.extent / surface.extent().max(self.extent)).powi(2);
+        self.list.iter().map(|surface| surface.area() * share(surface)).sum()
     }
 }
 
@@ -153,6 +163,12 @@ impl Surface {
         let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let corners = self.rings.iter().flatten().map(|&p| self.plane.lift(p));
         corners.fold(empty, |(low, high), p| (low.min(p), high.max(p)))
+    }
+
+    /// Diagonal of its bounding box, m.
+    pub fn extent(&self) -> f64 {
+        let (low, high) = self.bounds();
+        low.distance(high)
     }
 
     /// Area, m².

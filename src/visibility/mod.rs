@@ -52,10 +52,13 @@ impl std::fmt::Debug for Occluders {
     }
 }
 
+/// Beyond what 32 bits round places to, as a share of the extent.
+const ROUNDING: f64 = 1e-6;
+
 impl Occluders {
     /// The occluders of a scene.
     pub fn new(surfaces: &Surfaces) -> Self {
-        Self::of(polygons(surfaces).collect(), surfaces.extent, surfaces.tolerance)
+        Self::of(polygons(surfaces).collect(), surfaces.tolerance)
     }
 
     /// Convex planar polygons as occluders; distances up to `tolerance`, m, count as zero.
@@ -67,20 +70,17 @@ impl Occluders {
             let plane = HalfSpace::new(p[0], normal(p)?);
             Some(Occluder { corners: (*p).into(), plane, surface: number as u32 })
         };
-        let corners = || polygons.iter().flat_map(|p| p.iter().copied());
-        let low = corners().fold(DVec3::INFINITY, DVec3::min);
-        let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
-        let extent = if low.is_finite() { low.distance(high) } else { 0.0 };
-        Self::of(polygons.iter().enumerate().filter_map(occluder).collect(), extent, tolerance)
+        Self::of(polygons.iter().enumerate().filter_map(occluder).collect(), tolerance)
     }
 
-    fn of(polygons: Vec<Occluder>, extent: f64, tolerance: f64) -> Self {
+    fn of(polygons: Vec<Occluder>, tolerance: f64) -> Self {
         let corners = || polygons.iter().flat_map(|p| p.corners.iter().copied());
         let low = corners().fold(DVec3::INFINITY, DVec3::min);
         let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
         let centre = if low.is_finite() { low.midpoint(high) } else { DVec3::ZERO };
-        let margin = Vec3A::splat((tolerance * 5.0) as f32);
-        // Grown so that rounding to 32 bits loses nothing.
+        let extent = if low.is_finite() { low.distance(high) } else { 0.0 };
+        // Grown so that rounding to 32 bits loses nothing, however far out.
+        let margin = Vec3A::splat((tolerance * 5.0).max(ROUNDING * extent) as f32);
         let boxes: Vec<Aabb> = polygons
             .iter()
             .map(|polygon| {

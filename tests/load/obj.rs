@@ -1,7 +1,7 @@
 //! OBJ and MTL.
 
 use glam::{DVec2, DVec3, Vec3};
-use radiosity::scene::{LoadOptions, Scene, load};
+use radiosity::scene::{LoadOptions, Scene, Sides, load};
 
 use crate::{Folder, red_png};
 
@@ -152,7 +152,7 @@ fn emission_is_radiance_and_white_is_clamped() {
 #[test]
 fn two_sidedness_can_be_overridden() {
     let folder = Folder::new().with("s.obj", format!("{SQUARE}f 1 2 3 4"));
-    let options = LoadOptions { two_sided: Some(true), ..LoadOptions::default() };
+    let options = LoadOptions { two_sided: Sides::Both, ..LoadOptions::default() };
     assert!(load(&folder.path("s.obj"), &options).unwrap().materials[0].double_sided);
 }
 

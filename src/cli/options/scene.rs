@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use radiosity::scene::LoadOptions;
+use radiosity::scene::{LoadOptions, Sides};
 use radiosity::{Error, Result, Scene, load};
 
 use super::lights::{HINT, LightOptions};
@@ -23,9 +23,10 @@ pub(crate) struct SceneOptions {
     #[arg(help_heading = "Reading")]
     units: f64,
 
-    /// Whether surfaces reflect and emit from both sides
+    /// Which sides of surfaces reflect and emit
     ///
-    /// `auto` does what the file says (glTF `doubleSided`; OBJ: front sides only, with black backs).
+    /// The file says so (glTF `doubleSided`; OBJ: front sides only, with black backs), unless lamps would
+    /// shine on backs only: then `auto` turns faces over, or lights both sides, and says so.
     #[arg(long, value_name = "WHEN", value_enum, default_value_t = TwoSided::Auto)]
     #[arg(help_heading = "Reading")]
     two_sided: TwoSided,
@@ -36,9 +37,14 @@ pub(crate) struct SceneOptions {
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum TwoSided {
+    /// What the file says, unless it would leave rooms black
     Auto,
+    /// Both sides of all surfaces
     On,
+    /// What the file says
     Off,
+    /// What the file says, every surface turned over
+    Flip,
 }
 
 impl SceneOptions {
@@ -63,9 +69,10 @@ impl SceneOptions {
 
     fn load_options(&self) -> LoadOptions {
         let two_sided = match self.two_sided {
-            TwoSided::Auto => None,
-            TwoSided::On => Some(true),
-            TwoSided::Off => Some(false),
+            TwoSided::Auto => Sides::Auto,
+            TwoSided::On => Sides::Both,
+            TwoSided::Off => Sides::AsWritten,
+            TwoSided::Flip => Sides::Flipped,
         };
         LoadOptions { metres_per_unit: self.units, two_sided }
     }

@@ -12,7 +12,8 @@ use percent_encoding::percent_decode_str;
 use crate::error::{Error, Result};
 
 /// Required extensions that are read, or whose absence leaves diffuse light as it is.
-const READABLE: [&str; 5] = [
+const READABLE: [&str; 6] = [
+    "KHR_materials_pbrSpecularGlossiness",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_unlit",
@@ -68,8 +69,12 @@ impl File {
         let bytes = data
             .zip(start.zip(length))
             .and_then(|(data, (start, length))| data.get(start..start.checked_add(length)?));
-        let outside =
-            || self.fail(format!("buffer view {index} lies outside buffer {}", view.buffer));
+        let packed = view.extensions.as_ref().and_then(|all| all.others.keys().next());
+        let packed = packed
+            .map_or_else(String::new, |name| format!(" (compressed by {name}, which is not read)"));
+        let outside = || {
+            self.fail(format!("buffer view {index} lies outside buffer {}{packed}", view.buffer))
+        };
         Ok((bytes.ok_or_else(outside)?, view.byte_stride.map(|stride| stride.0)))
     }
 
@@ -87,8 +92,13 @@ impl File {
         }
         let name = percent_decode_str(uri).decode_utf8();
         let name = name.map_err(|_| self.fail(format!("\"{uri}\" is not UTF-8 when decoded")))?;
-        let path = self.path.parent().unwrap_or(Path::new("")).join(name.as_ref());
-        fs::read(&path).map_err(Error::io(&path))
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        let path = folder.join(name.as_ref());
+        // Exporters also write names as they are, with escapes or backslashes in them.
+        fs::read(&path)
+            .or_else(|error| fs::read(folder.join(uri)).map_err(|_| error))
+            .or_else(|error| fs::read(folder.join(name.replace('\\', "/"))).map_err(|_| error))
+            .map_err(Error::io(&path))
     }
 
     fn buffer(&self, index: usize, blob: &mut Option<Vec<u8>>) -> Result<Option<Vec<u8>>> {
@@ -109,12 +119,7 @@ impl File {
     }
 
     fn refuse_unreadable_extensions(&self) -> Result<()> {
-        let readable = |name: &str| {
-            let about_gloss =
-                name.starts_with("KHR_materials_") && name != "KHR_materials_pbrSpecularGlossiness";
-            READABLE.contains(&name) || about_gloss
-        };
-        match self.root.extensions_required.iter().find(|name| !readable(name)) {
+        match self.root.extensions_required.iter().find(|name| !is_readable(name)) {
             Some(name) => {
                 Err(self.fail(format!("requires the extension {name}, which is not read")))
             }
@@ -123,15 +128,35 @@ impl File {
     }
 }
 
+/// Whether an extension is read, or says nothing about diffuse light.
+pub(super) fn is_readable(name: &str) -> bool {
+    READABLE.contains(&name) || name.starts_with("KHR_materials_")
+}
+
+/// What the file says its version is, if that is not one that is read.
+fn other_version(json: &[u8]) -> Option<String> {
+    let root: serde_json::Value = serde_json::from_slice(json).ok()?;
+    let version = root.pointer("/asset/version").or(root.get("version"));
+    let version = version.map_or_else(|| "1.0".to_owned(), |version| version.to_string());
+    let version = version.trim_matches('"').to_owned();
+    (!version.starts_with('2')).then_some(version)
+}
+
 fn parse(path: &Path, bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>)> {
     if !bytes.starts_with(b"glTF") {
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        let wrong = |error: json::Error| Error::Format {
-            path: path.to_owned(),
-            line: Some(error.line()).filter(|&line| line > 0),
-            message: format!("not valid glTF: {error}"),
+        let wrong = |error: json::Error| match other_version(text) {
+            Some(version) => Error::format(path, only_version_2(&version)),
+            None => Error::Format {
+                path: path.to_owned(),
+                line: Some(error.line()).filter(|&line| line > 0),
+                message: format!("not valid glTF: {error}"),
+            },
         };
         return Ok((Root::from_slice(text).map_err(wrong)?, None));
+    }
+    if bytes.get(4..8) == Some(&1u32.to_le_bytes()) {
+        return Err(Error::format(path, only_version_2("1")));
     }
     // The crate subtracts the header's 12 bytes from the length without looking.
     let length = bytes.get(8..12).map(|l| u32::from_le_bytes([l[0], l[1], l[2], l[3]]));
@@ -142,4 +167,8 @@ fn parse(path: &Path, bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>)> {
     let glb = Glb::from_slice(bytes).map_err(|error| wrong(error.to_string()))?;
     let root = Root::from_slice(&glb.json).map_err(|error| wrong(error.to_string()))?;
     Ok((root, glb.bin.map(|bin| bin.into_owned())))
+}
+
+fn only_version_2(version: &str) -> String {
+    format!("glTF of version {version}; only version 2 is read")
 }

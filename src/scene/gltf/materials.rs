@@ -22,7 +22,7 @@ pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Vec<UvMapping>> {
     let (mut metals, mut clear) = (Vec::new(), Vec::new());
     for (index, from) in file.root.materials.iter().enumerate() {
         let (material, mapping) = reader.material(index, from)?;
-        if from.pbr_metallic_roughness.metallic_factor.0 > 0.5 && is_metal(from) {
+        if is_metal(from) {
             metals.push(material.name.clone());
         }
         if from.alpha_mode != Checked::Valid(AlphaMode::Opaque) {
@@ -44,9 +44,12 @@ pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Vec<UvMapping>> {
     Ok(mappings)
 }
 
-/// A metallic factor under a metallic-roughness picture says nothing by itself.
+/// A metallic factor under a metallic-roughness picture, or beside gloss, says nothing by itself.
 fn is_metal(material: &json::Material) -> bool {
-    material.pbr_metallic_roughness.metallic_roughness_texture.is_none()
+    let pbr = &material.pbr_metallic_roughness;
+    let all = material.extensions.as_ref();
+    let glossy = all.is_some_and(|all| all.pbr_specular_glossiness.is_some());
+    pbr.metallic_factor.0 > 0.5 && pbr.metallic_roughness_texture.is_none() && !glossy
 }
 
 struct Reader<'a> {
@@ -62,7 +65,13 @@ impl Reader<'_> {
         let pbr = &from.pbr_metallic_roughness;
         let strength = from.extensions.as_ref().and_then(|all| all.emissive_strength.as_ref());
         let strength = strength.map_or(1.0, |strength| strength.emissive_strength.0);
-        let [red, green, blue, _] = pbr.base_color_factor.0;
+        let glossy = from.extensions.as_ref().and_then(|all| all.pbr_specular_glossiness.as_ref());
+        let factor = glossy.map_or(pbr.base_color_factor.0, |glossy| glossy.diffuse_factor.0);
+        let [red, green, blue, _] = factor;
+        let colours = match glossy {
+            Some(glossy) => glossy.diffuse_texture.as_ref(),
+            None => pbr.base_color_texture.as_ref(),
+        };
         let mut material = Material {
             name: from.name.clone().unwrap_or_else(|| format!("material {index}")),
             reflectance: Vec3::new(red, green, blue).as_dvec3(),
@@ -70,7 +79,7 @@ impl Reader<'_> {
             double_sided: from.double_sided,
             ..Material::default()
         };
-        let reflectance = self.picture(pbr.base_color_texture.as_ref())?;
+        let reflectance = self.picture(colours)?;
         let glows = material.emission != Rgb::ZERO;
         let emission = self.picture(from.emissive_texture.as_ref().filter(|_| glows))?;
         let mapping = attach_pictures(self.scene, &mut material, reflectance, emission);
@@ -80,6 +89,15 @@ impl Reader<'_> {
     fn picture(&mut self, info: Option<&Info>) -> Result<Option<Picture>> {
         let Some(info) = info else { return Ok(None) };
         let texture = self.file.get(info.index, "texture")?;
+        if self.file.root.get(texture.source).is_none() {
+            let needs = texture.extensions.as_ref().and_then(|all| all.others.keys().next());
+            let why = needs.map_or_else(
+                || "without picture".to_owned(),
+                |name| format!("that needs {name}, which is not read,"),
+            );
+            self.scene.notes.push(format!("texture {} {why} left out", info.index));
+            return Ok(None);
+        }
         let repeat = match texture.sampler {
             Some(sampler) => self.repeat(self.file.get(sampler, "sampler")?),
             None => [true; 2],
@@ -98,10 +116,7 @@ impl Reader<'_> {
 
     /// Reads a picture into the scene; an unreadable one costs a note, not the scene.
     fn decoded(&mut self, index: Index<json::Image>, repeat: [bool; 2]) -> Option<u32> {
-        let Some(image) = self.file.root.get(index) else {
-            self.scene.notes.push("a texture without PNG or JPEG picture left out".to_owned());
-            return None;
-        };
+        let image = self.file.root.get(index)?;
         let uri = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
         let name = image.name.as_deref().or(uri);
         let name = name.map_or_else(|| format!("image {index}"), str::to_owned);

@@ -9,8 +9,8 @@ mod primitives;
 
 use std::path::Path;
 
-use self::file::File;
-use super::notes::note_count;
+use self::file::{File, is_readable};
+use super::notes::{listed, note_count};
 use super::texture::UvMapping;
 use super::{Material, Scene};
 use crate::error::Result;
@@ -24,6 +24,7 @@ pub(super) fn read(path: &Path) -> Result<Scene> {
         Import { file: &file, scene, mappings, fallback: None, skipped: Skipped::default() };
     import.add_nodes()?;
     import.note_skipped();
+    import.note_extensions();
     Ok(import.scene)
 }
 
@@ -58,6 +59,16 @@ impl Import<'_> {
             self.scene.notes.push("meshes without material get grey of reflectance 0.5".to_owned());
             self.scene.materials.len() as u32 - 1
         })
+    }
+
+    /// Names the extensions that might have said something.
+    fn note_extensions(&mut self) {
+        let used = &self.file.root.extensions_used;
+        let unread: Vec<String> =
+            used.iter().filter(|name| !is_readable(name)).map(String::clone).collect();
+        if !unread.is_empty() {
+            self.scene.notes.push(format!("extensions not read: {}", listed(&unread)));
+        }
     }
 
     fn note_skipped(&mut self) {

@@ -88,7 +88,7 @@ impl Library {
         let file = folder.join(map.file.replace('\\', "/"));
         let key = (file, map.clamp);
         if !self.pictures.contains_key(&key) {
-            let texture = read_picture(&key.0, map, scene);
+            let texture = read_picture(folder, &key.0, map, scene);
             self.pictures.insert(key.clone(), texture);
         }
         let texture = self.pictures.get(&key).copied().flatten()?;
@@ -102,19 +102,20 @@ impl Library {
         names: &[(usize, String)],
         scene: &mut Scene,
     ) -> Vec<Use> {
-        let mut unknown = Vec::new();
+        let (mut unknown, mut first) = (Vec::new(), 0);
         let mut uses = Vec::with_capacity(names.len());
-        for (_, name) in names {
+        for (line, name) in names {
             let used = self.by_name.get(name).copied();
             uses.push(used.unwrap_or_else(|| {
+                first = if unknown.is_empty() { *line } else { first };
                 unknown.push(name.clone());
                 self.fallback(scene)
             }));
         }
         if !unknown.is_empty() {
-            let (line, list) = (first_line(names, &unknown), listed(&unknown));
+            let list = listed(&unknown);
             scene.notes.push(format!(
-                "{}:{line}: unknown material {list}; grey of reflectance 0.5 is used",
+                "{}:{first}: unknown material {list}; grey of reflectance 0.5 is used",
                 path.display()
             ));
         }
@@ -131,10 +132,6 @@ impl Library {
     }
 }
 
-fn first_line(names: &[(usize, String)], unknown: &[String]) -> usize {
-    names.iter().find(|(_, name)| unknown.first() == Some(name)).map_or(0, |(line, _)| *line)
-}
-
 /// One file with spaces in its name, or several files: whichever exists.
 fn library_files(folder: &Path, names: &str) -> Vec<PathBuf> {
     let whole = folder.join(names.trim_matches('"').replace('\\', "/"));
@@ -142,8 +139,11 @@ fn library_files(folder: &Path, names: &str) -> Vec<PathBuf> {
     if !whole.is_file() && parts.iter().any(|part| part.is_file()) { parts } else { vec![whole] }
 }
 
-fn read_picture(file: &Path, map: &Map, scene: &mut Scene) -> Option<u32> {
-    let bytes = fs::read(file).map_err(|error| error.to_string());
+fn read_picture(library_folder: &Path, file: &Path, map: &Map, scene: &mut Scene) -> Option<u32> {
+    // Exporters like to write paths of their own machine.
+    let beside = || library_folder.join(file.file_name().unwrap_or_default());
+    let bytes = fs::read(file).or_else(|error| fs::read(beside()).map_err(|_| error));
+    let bytes = bytes.map_err(|error| error.to_string());
     match bytes.and_then(|bytes| decode(&map.file, &bytes, [!map.clamp; 2])) {
         Ok(texture) => {
             scene.textures.push(texture);

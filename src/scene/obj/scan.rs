@@ -1,5 +1,6 @@
 //! A first pass over an OBJ file: finds errors with their lines, and what the parser leaves out.
 
+use std::collections::HashMap;
 use std::fmt::Write;
 use std::iter::repeat;
 use std::path::Path;
@@ -28,6 +29,8 @@ pub(super) struct Scan {
     pub(super) free_form: usize,
     /// Vertices with a colour.
     pub(super) coloured: usize,
+    /// Where in `materials` a name is.
+    numbers: HashMap<String, u32>,
     /// Numbers of positions, texture coordinates and normals.
     counts: [usize; 3],
 }
@@ -220,12 +223,13 @@ impl Scan {
         if name.is_empty() {
             return None;
         }
-        let known = self.materials.iter().position(|(_, known)| known == name);
-        let index = known.unwrap_or_else(|| {
-            self.materials.push((number, name.to_owned()));
-            self.materials.len() - 1
-        });
-        Some(index as u32)
+        if let Some(&known) = self.numbers.get(name) {
+            return Some(known);
+        }
+        let new = self.materials.len() as u32;
+        self.materials.push((number, name.to_owned()));
+        self.numbers.insert(name.to_owned(), new);
+        Some(new)
     }
 }
 

@@ -6,11 +6,24 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 
-/// The file's text; bytes that are not UTF-8 become replacement characters.
+/// The file's text, UTF-8 or UTF-16 with a byte order mark; what is neither becomes replacement characters.
 pub(crate) fn read(path: &Path) -> Result<String> {
-    let bytes = fs::read(path).map_err(Error::io(path))?;
-    let text = String::from_utf8_lossy(&bytes);
-    Ok(text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned())
+    Ok(decoded(&fs::read(path).map_err(Error::io(path))?))
+}
+
+fn decoded(bytes: &[u8]) -> String {
+    let wide = |from: fn([u8; 2]) -> u16| {
+        let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|b| from([b[0], b[1]])).collect();
+        String::from_utf16_lossy(&units)
+    };
+    match bytes {
+        [0xff, 0xfe, ..] => wide(u16::from_le_bytes),
+        [0xfe, 0xff, ..] => wide(u16::from_be_bytes),
+        _ => {
+            let text = String::from_utf8_lossy(bytes);
+            text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned()
+        }
+    }
 }
 
 /// Trimmed lines with the number of their first physical line, counted from 1.
@@ -58,6 +71,16 @@ mod tests {
         assert_eq!(found.len(), 2);
         assert_eq!((found[0].0, words(&found[0].1).count()), (1, 4));
         assert_eq!((found[1].0, found[1].1.trim()), (5, "f 1"));
+    }
+
+    #[test]
+    fn text_of_two_bytes_a_letter_is_text() {
+        let big: Vec<u8> = "\u{feff}v 1 \u{e4}".encode_utf16().flat_map(u16::to_be_bytes).collect();
+        let little: Vec<u8> =
+            "\u{feff}v 1 \u{e4}".encode_utf16().flat_map(u16::to_le_bytes).collect();
+        for bytes in [&big[..], &little, "\u{feff}v 1 \u{e4}".as_bytes()] {
+            assert_eq!(decoded(bytes), "v 1 \u{e4}");
+        }
     }
 
     #[test]

@@ -1,0 +1,206 @@
+//! Which sides of faces reflect and emit: what the file says, what the user says, or what light finds.
+
+use glam::DVec3;
+
+use super::sight::Sight;
+use super::{Face, Light, Scene};
+use crate::colour::luminance;
+
+/// Which sides of faces reflect and emit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sides {
+    /// What the file says, unless lamps would shine on backs only: see [`settle_sides`].
+    #[default]
+    Auto,
+    /// What the file says.
+    AsWritten,
+    /// Both sides of all faces.
+    Both,
+    /// What the file says, with every face turned over.
+    Flipped,
+}
+
+/// Turns faces over or opens their backs, as `sides` says, with a note where the file is overruled.
+///
+/// [`Sides::Auto`] follows light from lamps to the first face. If it meets hardly any front, but what
+/// leaves the lamps' backs meets backs, everything was modelled inside out and is turned over. If it
+/// meets more backs than fronts, all faces but the lamps get two sides. Without lamps, or with light
+/// from outside alone, the file is right.
+pub fn settle_sides(scene: &mut Scene, sides: Sides) {
+    match sides {
+        Sides::AsWritten => {}
+        Sides::Both => scene.materials.iter_mut().for_each(|material| material.double_sided = true),
+        Sides::Flipped => scene.faces.iter_mut().for_each(turn_over),
+        Sides::Auto => follow_light(scene),
+    }
+}
+
+fn follow_light(scene: &mut Scene) {
+    let found = Found::in_scene(scene);
+    let percent = |share: f64| format!("{:.0} %", 100.0 * share);
+    if found.is_inside_out() {
+        scene.faces.iter_mut().for_each(turn_over);
+        scene.notes.push(format!(
+            "all faces turned over: they showed lamps their backs ({} of the light behind lamps fell on backs, {} of \
+             that before them on fronts); --two-sided off keeps them",
+            percent(found.behind),
+            percent(found.fronts)
+        ));
+    } else if found.backs > found.fronts {
+        let lamps = |emission: DVec3| emission.max_element() > 0.0;
+        for material in scene.materials.iter_mut().filter(|material| !lamps(material.emission)) {
+            material.double_sided = true;
+        }
+        scene.notes.push(format!(
+            "both sides of faces reflect: {} of the light from lamps fell on backs; --two-sided off leaves those black",
+            percent(found.backs)
+        ));
+    } else if found.backs > WORTH_TELLING {
+        scene.notes.push(format!(
+            "{} of the light from lamps falls on backs, which are black; --two-sided on lights them",
+            percent(found.backs)
+        ));
+    }
+}
+
+/// The same polygon seen from its other side.
+fn turn_over(face: &mut Face) {
+    face.vertices.reverse();
+    face.normals.reverse();
+    face.normals.iter_mut().for_each(|normal| *normal = -*normal);
+    face.uvs.reverse();
+}
+
+/// Share of light on backs that a user should hear of.
+const WORTH_TELLING: f64 = 0.2;
+
+/// Share of light on fronts below which a room is as good as black.
+const HARDLY_ANY: f64 = 0.1;
+
+/// Rays from lamps; fewer in large scenes, where each costs a look at every triangle.
+const MOST_RAYS: usize = 512;
+const FEWEST_RAYS: usize = 64;
+const MOST_TESTS: usize = 30_000_000;
+
+/// Where the light of lamps goes, as shares of it.
+#[derive(Debug, Default)]
+struct Found {
+    /// On fronts, or on faces with two sides.
+    fronts: f64,
+    /// On backs.
+    backs: f64,
+    /// Of what would leave the lamps' backs: on the backs of others.
+    behind: f64,
+    /// Mean way to what is met before lamps and behind them, m.
+    ways: [f64; 2],
+}
+
+impl Found {
+    fn in_scene(scene: &Scene) -> Self {
+        let one_sided = scene.materials.iter().any(|material| !material.double_sided);
+        if !one_sided || !scene.is_lit() {
+            return Self::default();
+        }
+        let sight = Sight::new(scene);
+        let rays = (MOST_TESTS / sight.len().max(1)).clamp(FEWEST_RAYS, MOST_RAYS);
+        let (before, behind) = rays_of_faces(scene, &sight, rays);
+        let mut found = Self::default();
+        let points = rays_of_lights(scene, rays);
+        let seen = sight.all(&[before, points].concat());
+        let total = seen.len().max(1) as f64;
+        for hit in seen.iter().flatten() {
+            *(if hit.front { &mut found.fronts } else { &mut found.backs }) += 1.0 / total;
+            found.ways[0] += hit.distance;
+        }
+        found.ways[0] /= (total * (found.fronts + found.backs)).max(1.0);
+        let seen = sight.all(&behind);
+        let backs = seen.iter().flatten().filter(|hit| !hit.front && !hit.lamp);
+        let (count, way) = backs.fold((0.0, 0.0), |(n, sum), hit| (n + 1.0, sum + hit.distance));
+        found.behind = count / seen.len().max(1) as f64;
+        found.ways[1] = way / f64::max(count, 1.0);
+        found
+    }
+
+    fn is_inside_out(&self) -> bool {
+        let enclosed_before = self.fronts + self.backs > 0.5;
+        self.fronts < HARDLY_ANY
+            && self.behind > 0.5
+            && (!enclosed_before || self.ways[1] > self.ways[0])
+    }
+}
+
+/// Starts and directions, the directions of unit length.
+type Ray = (DVec3, DVec3);
+
+/// Rays from both sides of the scene's lamps, as many from each as its share of the power.
+fn rays_of_faces(scene: &Scene, sight: &Sight, count: usize) -> (Vec<Ray>, Vec<Ray>) {
+    let power = |&face: &u32| {
+        let material = &scene.materials[scene.faces[face as usize].material as usize];
+        luminance(material.emission)
+    };
+    let lamps: Vec<(f64, [DVec3; 3])> = sight
+        .triangles()
+        .map(|(face, corners)| {
+            let [a, b, c] = corners;
+            (power(&face) * (b - a).cross(c - a).length(), corners)
+        })
+        .filter(|(power, _)| *power > 0.0)
+        .collect();
+    let total: f64 = lamps.iter().map(|(power, _)| power).sum();
+    let (mut before, mut behind) = (Vec::new(), Vec::new());
+    let (mut passed, mut index) = (0.0, 0);
+    for (power, [a, b, c]) in lamps {
+        passed += power;
+        while (index as f64 + 0.5) / (count as f64) < passed / total && index < count {
+            let [s, t, u, v] = spread(index);
+            let (s, t) = if s + t > 1.0 { (1.0 - s, 1.0 - t) } else { (s, t) };
+            let start = a + s * (b - a) + t * (c - a);
+            let normal = (b - a).cross(c - a).normalize_or_zero();
+            // A point on the unit sphere around the normal's tip lies in a cosine-weighted direction.
+            let direction = (normal + on_sphere(u, v)).normalize_or(normal);
+            before.push((start, direction));
+            behind.push((start, -direction));
+            index += 1;
+        }
+    }
+    (before, behind)
+}
+
+/// Rays from lights that stand somewhere, all around or in their cones.
+fn rays_of_lights(scene: &Scene, count: usize) -> Vec<Ray> {
+    let mut rays = Vec::new();
+    let each = count / scene.lights.len().max(1);
+    for light in &scene.lights {
+        let (place, axis, angle) = match *light {
+            Light::Point { position, .. } => (position, DVec3::Y, std::f64::consts::PI),
+            Light::Spot { position, direction, outer_angle, .. } => {
+                (position, direction, outer_angle)
+            }
+            _ => continue,
+        };
+        for index in 0..each.max(1) {
+            let [u, v, ..] = spread(index);
+            // The cap of the sphere around the axis, in a frame of its own.
+            let tip = on_sphere(1.0 - u * (1.0 - angle.cos()) / 2.0, v);
+            let (x, z) = axis.any_orthonormal_pair();
+            rays.push((place, (tip.x * x + tip.y * axis + tip.z * z).normalize_or(axis)));
+        }
+    }
+    rays
+}
+
+/// The `index`-th point of a sequence that fills the unit cube of four dimensions evenly
+/// ([Roberts 2018](https://extremelearning.com.au/unreasonable-effectiveness-of-quasirandom-sequences/)).
+fn spread(index: usize) -> [f64; 4] {
+    // Root of x⁵ = x + 1.
+    const ROOT: f64 = 1.167_303_978_261_418_7;
+    [1, 2, 3, 4].map(|power| (0.5 + (index + 1) as f64 / ROOT.powi(power)).fract())
+}
+
+/// The point of the unit sphere at shares of its height and its circumference.
+fn on_sphere(u: f64, v: f64) -> DVec3 {
+    let height = 2.0 * u - 1.0;
+    let (sin, cos) = (std::f64::consts::TAU * v).sin_cos();
+    let radius = (1.0 - height * height).max(0.0).sqrt();
+    DVec3::new(radius * cos, height, radius * sin)
+}

@@ -1,0 +1,127 @@
+//! The first face along a ray, found by looking at all of them: for the few rays that reading a scene needs.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::Scene;
+use super::polygon::{area_vector, flattened, triangulate};
+
+/// What a ray meets first.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hit {
+    /// m.
+    pub(super) distance: f64,
+    /// True on the front, or on a face with two sides.
+    pub(super) front: bool,
+    /// True if the face emits light.
+    pub(super) lamp: bool,
+}
+
+/// All faces as triangles.
+pub(super) struct Sight<'a> {
+    scene: &'a Scene,
+    triangles: Vec<(u32, [DVec3; 3])>,
+    /// Anything nearer than this is where the ray starts, m.
+    nearest: f64,
+}
+
+/// Distances below this share of the scene's extent count as zero.
+const NEAREST: f64 = 1e-7;
+
+impl<'a> Sight<'a> {
+    pub(super) fn new(scene: &'a Scene) -> Self {
+        let mut triangles = Vec::with_capacity(scene.faces.len());
+        for (index, face) in scene.faces.iter().enumerate() {
+            let corners = face.corners(&scene.positions);
+            let pieces = match corners.len() {
+                3 => vec![[0, 1, 2]],
+                _ => {
+                    let normal = area_vector(&corners).normalize_or_zero();
+                    triangulate(&flattened(&corners, normal))
+                }
+            };
+            let placed = pieces.into_iter().map(|piece| piece.map(|corner| corners[corner]));
+            triangles.extend(placed.map(|piece| (index as u32, piece)));
+        }
+        Self { scene, triangles, nearest: NEAREST * scene.extent() }
+    }
+
+    /// Number of triangles.
+    pub(super) fn len(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// Each with the index of its face.
+    pub(super) fn triangles(&self) -> impl Iterator<Item = (u32, [DVec3; 3])> + '_ {
+        self.triangles.iter().copied()
+    }
+
+    /// What each ray meets.
+    pub(super) fn all(&self, rays: &[(DVec3, DVec3)]) -> Vec<Option<Hit>> {
+        rays.par_iter().map(|&(start, direction)| self.first(start, direction)).collect()
+    }
+
+    fn first(&self, start: DVec3, direction: DVec3) -> Option<Hit> {
+        let hits = self.triangles.iter().filter_map(|(face, corners)| {
+            let (distance, front) = crossing(start, direction, corners)?;
+            (distance > self.nearest).then_some((distance, front, *face))
+        });
+        let (distance, front, face) = hits.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let material = &self.scene.materials[self.scene.faces[face as usize].material as usize];
+        let lamp = material.emission.max_element() > 0.0;
+        Some(Hit { distance, front: front || material.double_sided, lamp })
+    }
+}
+
+/// Distance to a triangle, and whether its front is met (Möller and Trumbore 1997).
+fn crossing(start: DVec3, direction: DVec3, [a, b, c]: &[DVec3; 3]) -> Option<(f64, bool)> {
+    let (u, v) = (b - a, c - a);
+    let across = direction.cross(v);
+    let volume = u.dot(across);
+    if volume == 0.0 {
+        return None;
+    }
+    let from = start - a;
+    let s = from.dot(across) / volume;
+    let aside = from.cross(u);
+    let t = direction.dot(aside) / volume;
+    let inside = s >= 0.0 && t >= 0.0 && s + t <= 1.0;
+    inside.then(|| (v.dot(aside) / volume, volume > 0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Face, Material};
+    use smallvec::smallvec;
+
+    #[test]
+    fn the_nearest_face_is_met_from_its_side() {
+        let face = |vertices| Face { vertices, ..Face::default() };
+        let scene = Scene {
+            positions: vec![
+                DVec3::ZERO,
+                DVec3::X,
+                DVec3::new(1.0, 1.0, 0.0),
+                DVec3::Y,
+                DVec3::Z,
+                DVec3::new(1.0, 0.0, 1.0),
+                DVec3::ONE,
+            ],
+            faces: vec![face(smallvec![0, 1, 2, 3]), face(smallvec![4, 5, 6])],
+            materials: vec![Material::default()],
+            ..Scene::default()
+        };
+        let sight = Sight::new(&scene);
+        let from = |z: f64| DVec3::new(0.6, 0.5, z);
+        let seen = sight.all(&[
+            (from(3.0), DVec3::NEG_Z),
+            (from(0.5), DVec3::Z),
+            (from(0.0), DVec3::NEG_Z),
+            (DVec3::new(0.4, 0.5, 3.0), DVec3::NEG_Z),
+        ]);
+        let told: Vec<_> =
+            seen.iter().map(|hit| hit.map(|hit| (hit.distance, hit.front))).collect();
+        assert_eq!(told, [Some((2.0, true)), Some((0.5, false)), None, Some((3.0, true))]);
+    }
+}

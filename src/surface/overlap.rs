@@ -1,0 +1,153 @@
+//! Surfaces that lie in one place: a picture in the plane of its wall, a lamp in that of its ceiling.
+
+use glam::DVec3;
+
+use super::TOLERANCE;
+use super::boxes::close_pairs;
+use super::contact::inside;
+use super::merge::Region;
+use super::polygon::{Ring, area, centroid, contains, edges};
+use crate::colour::luminance;
+use crate::scene::Scene;
+
+/// Regions of which none covers another: what lies in the plane of a larger one, faces the same way and does
+/// not reach beyond it, is cut out of it.
+///
+/// Without this, light would fall on both. Regions that overlap in part are left as they are.
+pub(super) fn without_overlaps(scene: &Scene, mut regions: Vec<Region>) -> Vec<Region> {
+    let tolerance = TOLERANCE * scene.extent();
+    let bounds: Vec<_> = regions.iter().map(bounds).collect();
+    let mut within: Vec<Vec<usize>> = vec![Vec::new(); regions.len()];
+    for (large, small) in close_pairs(&bounds, tolerance) {
+        if is_covered(scene, &regions, [large, small], tolerance) {
+            within[large].push(small);
+        }
+    }
+    // What lies in one of these lies in all that it lies in: those without are cut first, and then are
+    // what is to be seen of them.
+    let mut order: Vec<usize> = (0..regions.len()).filter(|&k| !within[k].is_empty()).collect();
+    order.sort_by_key(|&large| within[large].len());
+    for large in order {
+        let seen = within[large].iter().flat_map(|&small| seen_from(&regions, [large, small]));
+        let seen: Vec<Ring> = seen.collect();
+        regions[large].rings.extend(seen);
+    }
+    regions
+}
+
+fn bounds(region: &Region) -> (DVec3, DVec3) {
+    let corners = region.rings.iter().flatten().map(|&p| region.plane.lift(p));
+    corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
+}
+
+/// The rings of the second region as holes in the first.
+fn seen_from(regions: &[Region], [large, small]: [usize; 2]) -> Vec<Ring> {
+    let (outer, inner) = (&regions[large], &regions[small]);
+    let flat = |&p| outer.plane.flatten(inner.plane.lift(p));
+    inner.rings.iter().map(|ring| ring.iter().rev().map(flat).collect()).collect()
+}
+
+/// True if the second region lies in the first and is to be seen in its stead.
+fn is_covered(
+    scene: &Scene,
+    regions: &[Region],
+    [large, small]: [usize; 2],
+    tolerance: f64,
+) -> bool {
+    let (outer, inner) = (&regions[large], &regions[small]);
+    let level = |p: DVec3| outer.plane.height(p).abs() <= tolerance;
+    let mut corners = inner.rings.iter().flatten().map(|&p| inner.plane.lift(p));
+    if inner.plane.normal.dot(outer.plane.normal) < 0.999 || !corners.all(level) {
+        return false;
+    }
+    let glow = |region: &Region| {
+        let face = &scene.faces[region.faces[0]];
+        luminance(scene.materials[face.material as usize].emission)
+    };
+    let size = |region: &Region| region.rings.iter().map(|ring| area(ring)).sum::<f64>();
+    let sizes = [size(outer), size(inner)];
+    let alike = (sizes[0] - sizes[1]).abs() <= 1e-6 * sizes[0];
+    // Of two in one place, the one that glows is meant, or else the one that the file has first.
+    let is_meant = alike && (glow(outer), small) >= (glow(inner), large);
+    (alike || sizes[0] > sizes[1])
+        && !is_meant
+        && is_within(&seen_from(regions, [large, small]), &outer.rings, tolerance)
+}
+
+/// True if what is inside `rings` is inside `others`, borders touching or not.
+fn is_within(rings: &[Ring], others: &[Ring], tolerance: f64) -> bool {
+    let outside = |segment| inside(rings, segment, tolerance).is_empty();
+    let crossed = others.iter().flat_map(|ring| edges(ring)).any(|edge| !outside(edge));
+    // No border of the others runs through it, so one place speaks for all, but may lie in a hole of its own.
+    let middle = rings.first().map(inner_point);
+    !crossed && middle.is_some_and(|middle| contains(rings, middle) && contains(others, middle))
+}
+
+/// A point inside a ring: its centroid, or, if that is outside, the centroid of one of its ears.
+fn inner_point(ring: &Ring) -> glam::DVec2 {
+    let centre = centroid(ring);
+    let alone = std::slice::from_ref(ring);
+    let n = ring.len();
+    let ears = (0..n).map(|k| centroid(&[ring[k], ring[(k + 1) % n], ring[(k + 2) % n]]));
+    std::iter::once(centre).chain(ears).find(|&p| contains(alone, p)).unwrap_or(centre)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Face, Material};
+    use crate::surface::surfaces_of;
+
+    const SQUARES: [[f64; 3]; 8] = [
+        [0., 0., 0.],
+        [4., 0., 0.],
+        [4., 4., 0.],
+        [0., 4., 0.],
+        [1., 1., 0.],
+        [2., 1., 0.],
+        [2., 2., 0.],
+        [1., 2., 0.],
+    ];
+
+    fn areas(faces: &[&[u32]], positions: &[[f64; 3]]) -> Vec<f64> {
+        let face = |(index, vertices): (usize, &&[u32])| Face {
+            vertices: (*vertices).into(),
+            material: index as u32,
+            ..Face::default()
+        };
+        let scene = Scene {
+            positions: positions.iter().map(|&p| p.into()).collect(),
+            faces: faces.iter().enumerate().map(face).collect(),
+            materials: vec![Material::default(); faces.len()],
+            ..Scene::default()
+        };
+        surfaces_of(&scene)
+            .list
+            .iter()
+            .map(|surface| (1e9 * surface.area()).round() / 1e9)
+            .collect()
+    }
+
+    #[test]
+    fn what_lies_in_a_surface_is_cut_out_of_it() {
+        assert_eq!(areas(&[&[0, 1, 2, 3], &[4, 5, 6, 7]], &SQUARES), [15.0, 1.0]);
+        assert_eq!(areas(&[&[4, 5, 6, 7], &[0, 1, 2, 3]], &SQUARES), [1.0, 15.0]);
+        let nested = [&[4, 5, 6][..], &[0, 1, 2, 3], &[4, 5, 6, 7]];
+        assert_eq!(areas(&nested, &SQUARES), [0.5, 15.0, 0.5]);
+    }
+
+    #[test]
+    fn what_faces_the_other_way_lies_beside_or_reaches_out_stays() {
+        assert_eq!(areas(&[&[0, 1, 2, 3], &[7, 6, 5, 4]], &SQUARES), [16.0, 1.0]);
+        for moved in [4.0, 2.5] {
+            let mut squares = SQUARES;
+            squares[4..].iter_mut().for_each(|p| p[0] += moved);
+            assert_eq!(areas(&[&[0, 1, 2, 3], &[4, 5, 6, 7]], &squares), [16.0, 1.0], "{moved}");
+        }
+    }
+
+    #[test]
+    fn of_two_in_the_same_place_one_is_left() {
+        assert_eq!(areas(&[&[0, 1, 2, 3], &[0, 1, 2], &[0, 2, 3]], &SQUARES), [0.0, 8.0, 8.0]);
+    }
+}

@@ -1,0 +1,129 @@
+//! What is bent: the scenes of the project, and small files with something of everything.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+use radiosity::scene::Scene;
+use serde_json::json;
+
+use crate::asset::{Asset, FLOAT, floats};
+use crate::run::Files;
+
+/// Larger scenes are left out: small ones have the same errors, sooner.
+const LARGEST: u64 = 6_000;
+
+/// Something of everything that OBJ files hold.
+const ODD: &str = "mtllib m.mtl\no box\nv 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nv 0.5 0.5 2 1 0 0\n\
+    vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0.1 1\ns 1\nusemtl a\nf 1/1/1 2/2/1 3/3/1 4/4/1\n\
+    usemtl lamp\nf -1 -2 -3\ns off\ng other\nl 1 2\nf 1 2 5\nf 5 4 3 2 1\n";
+
+/// A floor with an L, a hole by a bridge, a face in its plane, one hovering, one through it, a closed box.
+const ROOM: &str = "mtllib m.mtl\nv -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\nv -1 0 1\nv 1 0 1\nv 1 0 -1\n\
+    v -1 0 -1\nv 0 -1 0\nv 1 1 0\nv 0 1 1\nv -1 0.001 0\nv 0 0.001 1\nv 0 0.001 0\nv -1 2 -1\nv 1 2 -1\n\
+    v 1 2 1\nv -1 2 1\nv 0 0 1\nusemtl a\nf 1 2 3 4 1 5 8 7 6 5\nf 5 6 7 8\nf 5 19 7 8\nf 9 10 11\nf 12 13 14\nf 14 13 12\n\
+    usemtl lamp\nf 15 16 17 18\nusemtl none\nf 1 2 16 15\n";
+
+pub(crate) const MTL: &str = "newmtl a\nKd 0.5 0.25 1\nmap_Kd -s 2 2 1 -o 0.5 -clamp on red.png\n\
+    newmtl lamp\nKd 0.7\nKe 10 9 8\nillum 1\nmap_Ke -mm 0 1 red.png\nnewmtl floor\nKd 0.1 0.2\nKa 1 1 1\n";
+
+fn scenes(ending: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let entries = fs::read_dir(folder).expect("the project's scenes");
+    let mut found: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("a readable folder").path())
+        .filter(|path| path.extension().is_some_and(|found| found == ending))
+        .filter(|path| path.metadata().is_ok_and(|data| data.len() <= LARGEST))
+        .collect();
+    found.sort();
+    found
+}
+
+fn read(path: &Path) -> Vec<u8> {
+    fs::read(path).expect("a scene of the project")
+}
+
+/// OBJ files, each with its MTL files.
+pub(crate) static OBJ: LazyLock<Vec<Files>> = LazyLock::new(|| {
+    let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let own =
+        |text: &str| vec![("s.obj".to_owned(), text.into()), ("m.mtl".to_owned(), MTL.into())];
+    let shipped = scenes("obj").into_iter().map(|path| {
+        let library = path.with_extension("mtl");
+        vec![("s.obj".to_owned(), read(&path)), (name(&library), read(&library))]
+    });
+    [own(ODD), own(ROOM)].into_iter().chain(shipped).collect()
+});
+
+/// glTF with something of everything, and scenes of the project turned into it.
+pub(crate) static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
+    let scene = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name);
+        asset_of(&radiosity::load(&path, &Default::default()).expect("a scene of the project"))
+    };
+    vec![everything(), everything(), scene("cornell-box.obj"), scene("blocker.obj")]
+});
+
+fn everything() -> Asset {
+    let mut asset = Asset::triangle();
+    let uvs = asset.add(&floats(&[0., 0., 1., 0., 0., 1.]), FLOAT, "VEC2", 3);
+    let normals = asset.add(&floats(&[0.1, 0., 1., 0., 0., 1., 0., 0., 1.]), FLOAT, "VEC3", 3);
+    let colours = asset.add(&[200; 12], 5121, "VEC4", 3);
+    let indices = asset.add(&[0, 1, 2], 5121, "SCALAR", 3);
+    asset.json["accessors"][colours]["normalized"] = true.into();
+    asset.json["accessors"][0]["sparse"] = json!({"count": 1,
+        "indices": {"bufferView": indices, "componentType": 5121}, "values": {"bufferView": 0}});
+    let primitive = &mut asset.json["meshes"][0]["primitives"][0];
+    primitive["attributes"] =
+        json!({"POSITION": 0, "NORMAL": normals, "TEXCOORD_0": uvs, "COLOR_0": colours});
+    primitive["indices"] = indices.into();
+    asset.json["images"] = json!([{"uri": "red.png"}]);
+    asset.json["samplers"] = json!([{"wrapS": 33071}]);
+    asset.json["textures"] = json!([{"source": 0, "sampler": 0}]);
+    asset.json["materials"] = json!([{"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0},
+        "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.5, 1], "baseColorTexture": {"index": 0,
+            "extensions": {"KHR_texture_transform": {"scale": [2, 2], "rotation": 1.5}}}},
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8}}}]);
+    asset.json["cameras"] =
+        json!([{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}]);
+    asset.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [
+        {"type": "spot", "intensity": 100, "range": 5, "spot": {"outerConeAngle": 0.5}}]}});
+    asset.json["nodes"] = json!([{"mesh": 0, "camera": 0, "scale": [1, 2, -3], "children": [1]},
+        {"extensions": {"KHR_lights_punctual": {"light": 0}}}]);
+    asset
+}
+
+/// One primitive a material, fans of the faces.
+fn asset_of(scene: &Scene) -> Asset {
+    let mut asset = Asset::triangle();
+    let places: Vec<f32> = scene.positions.iter().flat_map(|p| p.as_vec3().to_array()).collect();
+    let places = asset.add(&floats(&places), FLOAT, "VEC3", scene.positions.len() as u64);
+    let (mut primitives, mut materials) = (Vec::new(), Vec::new());
+    for (number, material) in scene.materials.iter().enumerate() {
+        let faces = scene.faces.iter().filter(|face| face.material as usize == number);
+        let fans = faces.flat_map(|face| {
+            let hub = face.vertices[0];
+            face.vertices[1..]
+                .windows(2)
+                .flat_map(move |pair| [hub, pair[0], pair[1]])
+                .collect::<Vec<_>>()
+        });
+        let indices: Vec<u16> = fans.map(|index| index as u16).collect();
+        let bytes: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
+        let indices = asset.add(&bytes, 5123, "SCALAR", indices.len() as u64);
+        primitives.push(
+            json!({"attributes": {"POSITION": places}, "indices": indices, "material": number}),
+        );
+        materials.push(json!({"name": material.name, "emissiveFactor": material.emission.clamp(glam::DVec3::ZERO, glam::DVec3::ONE).to_array(),
+            "pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": material.reflectance.extend(1.0).to_array()}}));
+    }
+    asset.json["meshes"] = json!([{"primitives": primitives}]);
+    asset.json["materials"] = json!(materials);
+    asset
+}
+
+/// Configurations for `solve`.
+pub(crate) const TOML: &str = "# coarse\nuniform = 0.3\nstop = \"5%\"\nhemicube-resolution = 32\njson = true\n\
+    output = [\"a.glb\", \"b.ply\"]\nimage = \"a.png\"\nsize = \"40x30\"\neye = [0.3, 0.3, -1]\n\
+    target = [0.3, 0.3, 0]\nview = [\"radiosity\"]\nfinal-gather = true\ntwo-sided = \"auto\"\nunits = \"cm\"\n\
+    quality = \"draft\"\nsolver = \"jacobi\"\nomega = 1.0\nmax-shots = 3\nquiet = true\n";

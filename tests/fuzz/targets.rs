@@ -1,0 +1,179 @@
+//! What is bent, and what has to hold: an error with words, or a sound scene whose light is finite.
+//!
+//! Another format becomes a target by its seeds in `corpus`, a [`Target`] here and a line in `main`.
+
+use std::ops::ControlFlow;
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use fastrand::Rng;
+use radiosity::{Length, Scene, Settings, reconstruct, solve, surfaces_of};
+
+use crate::asset::Asset;
+use crate::bend::{bytes, often, text, tree};
+use crate::corpus;
+use crate::folder::{Folder, red_png};
+use crate::run::{Files, Target};
+
+/// Larger scenes are only loaded.
+const MOST_FACES: usize = 150;
+
+pub(crate) const OBJ: Target = Target { name: "obj", quick: 600, files: obj, check: load };
+pub(crate) const MTL: Target = Target { name: "mtl", quick: 300, files: mtl, check: load };
+pub(crate) const GLTF: Target = Target { name: "gltf", quick: 600, files: gltf, check: load };
+pub(crate) const GLB: Target = Target { name: "glb", quick: 400, files: glb, check: load };
+pub(crate) const TOML: Target = Target { name: "toml", quick: 60, files: toml, check: configure };
+pub(crate) const SOLVED: Target = Target { name: "solved", quick: 60, files: any, check: light };
+
+fn with_picture(mut files: Files) -> Files {
+    files.push(("red.png".to_owned(), red_png()));
+    files
+}
+
+fn obj(rng: &mut Rng) -> Files {
+    let mut files = corpus::OBJ[rng.usize(..corpus::OBJ.len())].clone();
+    for _ in 0..often(rng) {
+        text(rng, &mut files[0].1);
+    }
+    with_picture(files)
+}
+
+fn mtl(rng: &mut Rng) -> Files {
+    let mut files = corpus::OBJ[rng.usize(..corpus::OBJ.len())].clone();
+    for _ in 0..often(rng) {
+        text(rng, &mut files[1].1);
+    }
+    let mut files = with_picture(files);
+    if rng.u8(..4) == 0 {
+        bytes(rng, &mut files[2].1);
+    }
+    files
+}
+
+/// A glTF file bent in its tree and in its numbers.
+fn asset(rng: &mut Rng) -> Asset {
+    let seed = &corpus::ASSETS[rng.usize(..corpus::ASSETS.len())];
+    let mut asset = Asset { json: seed.json.clone(), bytes: seed.bytes.clone() };
+    for _ in 0..often(rng) {
+        if rng.u8(..4) > 0 {
+            tree(rng, &mut asset.json);
+        } else {
+            number(rng, &mut asset.bytes);
+        }
+    }
+    // A tree without an object at its root has no place for buffers.
+    if !asset.json.is_object() {
+        asset.json = serde_json::json!({ "asset": asset.json });
+    }
+    asset
+}
+
+/// Another float at a place where one may stand.
+fn number(rng: &mut Rng, bytes: &mut [u8]) {
+    let odd = [0.0, -0.0, f32::NAN, f32::INFINITY, 1e38, -1e30, 1e-38, 1.0, 1e6, 0.5, 1.000_000_1];
+    let at = 4 * rng.usize(..bytes.len() / 4);
+    bytes[at..at + 4].copy_from_slice(&odd[rng.usize(..odd.len())].to_le_bytes());
+}
+
+fn gltf(rng: &mut Rng) -> Files {
+    let mut text = asset(rng).text().into_bytes();
+    if rng.u8(..6) == 0 {
+        bytes(rng, &mut text);
+    }
+    with_picture(vec![("a.gltf".to_owned(), text)])
+}
+
+fn glb(rng: &mut Rng) -> Files {
+    let mut glb = asset(rng).glb();
+    for _ in 0..rng.usize(..3) {
+        bytes(rng, &mut glb);
+    }
+    with_picture(vec![("a.glb".to_owned(), glb)])
+}
+
+fn toml(rng: &mut Rng) -> Files {
+    let mut config = corpus::TOML.as_bytes().to_vec();
+    for _ in 0..often(rng) {
+        text(rng, &mut config);
+    }
+    vec![("c.toml".to_owned(), config)]
+}
+
+fn any(rng: &mut Rng) -> Files {
+    match rng.u8(..6) {
+        0 => gltf(rng),
+        1 => glb(rng),
+        _ => obj(rng),
+    }
+}
+
+/// The scene in a file, if it is one.
+fn loaded(folder: &Folder, name: &str) -> Option<Scene> {
+    match folder.load(name) {
+        Ok(scene) => Some(scene),
+        Err(error) => {
+            assert!(!error.to_string().is_empty());
+            None
+        }
+    }
+}
+
+fn load(folder: &Folder, name: &str) {
+    let Some(scene) = loaded(folder, name) else { return };
+    assert!(!scene.faces.is_empty());
+    assert!(scene.positions.iter().all(|p| p.is_finite()));
+    for face in &scene.faces {
+        let count = face.vertices.len();
+        assert!(count >= 3 && face.vertices.iter().all(|&v| (v as usize) < scene.positions.len()));
+        assert!([0, count].contains(&face.normals.len()) && [0, count].contains(&face.uvs.len()));
+    }
+    if scene.faces.len() <= MOST_FACES {
+        let surfaces = surfaces_of(&scene);
+        assert!(surfaces.area().is_finite());
+    }
+}
+
+/// The program refuses or obeys; the scene does not exist, so that it does little else.
+fn configure(folder: &Folder, name: &str) {
+    let directory = folder.path("");
+    let output = Command::new(env!("CARGO_BIN_EXE_radiosity"))
+        .args(["solve", "none.obj", "--config", name])
+        .current_dir(&directory)
+        .output()
+        .expect("a program that starts");
+    let words = String::from_utf8_lossy(&output.stderr);
+    assert!(matches!(output.status.code(), Some(1 | 2)), "{:?}: {words}", output.status);
+    assert!(!words.contains("panicked") && !words.is_empty(), "{words}");
+}
+
+fn light(folder: &Folder, name: &str) {
+    let Some(mut scene) = loaded(folder, name) else { return };
+    if scene.faces.len() > MOST_FACES {
+        return;
+    }
+    if !scene.is_lit() {
+        scene.materials[scene.faces[0].material as usize].emission = glam::DVec3::ONE;
+    }
+    let surfaces = surfaces_of(&scene);
+    let settings = Settings {
+        max_level: 2,
+        tolerance: 0.3,
+        min_element: Length::OfScene(1.0 / 30.0),
+        patch_size: Length::OfScene(1.0 / 4.0),
+        hemicube_resolution: 32,
+        max_shots: Some(60),
+        ..Settings::draft()
+    };
+    let begun = Instant::now();
+    let hurry = |_: &_| match begun.elapsed() < Duration::from_secs(5) {
+        true => ControlFlow::Continue(()),
+        false => ControlFlow::Break(()),
+    };
+    let Ok(solution) = solve(&surfaces, &settings, hurry) else { return };
+    let mesh = reconstruct(&surfaces, &solution);
+    assert!(mesh.positions.iter().all(|p| p.is_finite()));
+    assert!(mesh.normals.iter().all(|n| n.is_finite()));
+    assert!(mesh.radiosity.iter().all(|b| b.is_finite() && b.min_element() >= 0.0));
+    assert!(mesh.irradiance.iter().all(|i| i.direct.is_finite() && i.indirect.is_finite()));
+    assert!(solution.energy.imbalance().is_finite());
+}
