@@ -106,3 +106,23 @@ fn wrong_lights_are_refused_before_any_work() {
     let dark = scene("cornell-box.obj");
     place.run(&["info", &dark, "--materials", "none.toml"]).refused(1, &["none.toml"]);
 }
+
+#[test]
+fn a_room_modelled_inside_out_is_turned_over_by_the_light_added_to_it() {
+    let place = room();
+    let turn = |line: &str| match line.strip_prefix("f ") {
+        Some(corners) => format!("f {}", corners.split(' ').rev().collect::<Vec<_>>().join(" ")),
+        None => line.to_owned(),
+    };
+    let turned: Vec<String> = ROOM.lines().map(turn).collect();
+    place.write("turned.obj", &turned.join("\n"));
+    let light = ["--point-light", "2,2,2=800lm"];
+    let absorbed = |file: &str| -> f64 {
+        let solve = ["solve", file, "--json", "-o", "a.glb"];
+        let json = place.run(&[&solve[..], &COARSE, &light].concat()).done().json();
+        let channels = json["energy"]["absorbed"].as_array().expect("three channels");
+        channels.iter().filter_map(serde_json::Value::as_f64).sum()
+    };
+    let [right, turned] = [absorbed("room.obj"), absorbed("turned.obj")];
+    assert!(right > 0.0 && (turned / right - 1.0).abs() < 0.01, "{turned} W and {right} W");
+}

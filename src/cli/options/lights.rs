@@ -74,6 +74,11 @@ struct Luminaire {
 }
 
 impl LightOptions {
+    /// Whether lamps with a surface are added.
+    pub(crate) fn adds_faces(&self) -> bool {
+        !self.area_light.is_empty()
+    }
+
     /// Adds to a scene what was asked for.
     pub(super) fn apply(&self, scene: &mut Scene) -> Result<(), Error> {
         if let Some(file) = &self.materials {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use radiosity::scene::{LoadOptions, Sides};
+use radiosity::scene::{LoadOptions, Sides, settle_sides};
 use radiosity::{Error, Result, Scene, load};
 
 use super::lights::{HINT, LightOptions};
@@ -50,8 +50,14 @@ enum TwoSided {
 impl SceneOptions {
     /// The scene, with what is added to it.
     pub(crate) fn load(&self) -> Result<Scene> {
-        let mut scene = load(&self.path, &self.load_options())?;
+        let options = self.load_options();
+        let mut scene = load(&self.path, &options)?;
+        let was_dark = !scene.is_lit();
         self.lights.apply(&mut scene)?;
+        // Only light tells whether a room was modelled inside out; lamps that are added face as they are told.
+        if was_dark && options.two_sided == Sides::Auto && !self.lights.adds_faces() {
+            settle_sides(&mut scene, Sides::Auto);
+        }
         Ok(scene)
     }
 
