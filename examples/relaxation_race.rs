@@ -1,20 +1,23 @@
 //! A race of the relaxations on the office: what is left of the residual after so many rows, and how
 //! far from the direct solution it all ends. Writes a plot to `out/relaxation-race.svg`.
 
-#[path = "common/plot.rs"]
-mod plot;
-
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
-use plot::{Curve, Plot};
 use radiosity::form_factor::{self, assemble};
 use radiosity::mesh::Mesh;
+use radiosity::page::{Axis, Curve, Plot, Stroke};
 use radiosity::settings::Method;
 use radiosity::solver::relaxation::{Criteria, Relaxation, Step, System};
 use radiosity::visibility::Occluders;
 use radiosity::{Length, Settings, load, surfaces_of};
+
+/// Some of Okabe and Ito's colours, which nobody mistakes for each other, by method.
+const COLOURS: [[u8; 3]; 4] = [[0, 0, 0], [230, 159, 0], [0, 114, 178], [213, 94, 0]];
+
+/// Least residual shown, W/m².
+const LEAST: f64 = 1e-6;
 
 /// Longest side of a patch, m: about a thousand patches.
 const PATCH: f64 = 0.6;
@@ -60,17 +63,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             errors.fold(0.0, f64::max),
         );
         let every = if matches!(method, Method::Jacobi | Method::GaussSeidel) { n } else { n / 10 };
-        let points = steps.iter().step_by(every).map(|s| (s.shots as f64, s.residual)).collect();
-        curves.push(Curve { name, dashed: omega != 1.0, colour: method as usize, points });
+        let shown = steps.iter().step_by(every).take_while(|step| step.residual >= LEAST);
+        let points = shown.map(|step| (step.shots as f64, step.residual)).collect();
+        let stroke = if omega == 1.0 { Stroke::Line } else { Stroke::Dashed };
+        curves.push(Curve { name, colour: COLOURS[method as usize], stroke, points });
     }
     let plot = Plot {
-        title: format!("Relaxation of the office, {n} patches"),
-        across: "rows relaxed".to_owned(),
-        up: "largest residual, W/m²".to_owned(),
-        least: 1e-6,
+        size: [900, 560],
+        across: Axis { name: "rows relaxed", logarithmic: false },
+        up: Axis { name: "largest residual, W/m²", logarithmic: true },
         curves,
     };
-    plot.save(Path::new("out/relaxation-race.svg"))
+    std::fs::create_dir_all("out")?;
+    std::fs::write("out/relaxation-race.svg", plot.svg())?;
+    Ok(())
 }
 
 /// The office's patches and the form factors between them, by hemicubes.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use radiosity::compare::{
-    Band, Comparison, Family, LAWS, Origin, Run, Set, nearest_law, number, percent,
+    Band, Comparison, Family, Origin, Run, Set, laws, nearest_law, number, percent,
 };
 
 /// The runs, the reference, the slopes and the verdict, for people.
@@ -57,14 +57,7 @@ fn row(run: &Run) -> String {
     };
     let memory = run.peak_memory.map_or("-".to_owned(), |bytes| (bytes / 1_000_000).to_string());
     let score = &run.score;
-    let error = |band: Band| {
-        let errors = score.of(band);
-        match errors.mean > 0.0 {
-            true if errors.rmse <= errors.floor => format!("<{:.2}", 100.0 * errors.floor),
-            true => format!("{:.2}", 100.0 * errors.rmse),
-            false => "-".to_owned(),
-        }
-    };
+    let error = |band: Band| score.of(band).in_percent().map_or("-".to_owned(), |(_, words)| words);
     let unmatched = match score.unmatched {
         0 => String::new(),
         count => format!("  {count} places unmatched"),
@@ -85,7 +78,6 @@ fn row(run: &Run) -> String {
 
 fn reference(comparison: &Comparison) -> String {
     let reference = &comparison.reference;
-    let count = |set| reference.points.iter().filter(|point| point.set == set).count();
     let origin = match &reference.origin {
         Origin::Traced { rounds, paths, seconds } => {
             format!("{rounds} rounds, {} paths a place, {seconds:.1} s", number(*paths as f64))
@@ -99,8 +91,8 @@ fn reference(comparison: &Comparison) -> String {
     format!(
         "reference  {} places and {} in shadow edges; {origin}; noise {all} and {shadow}, taken off; \
          errors below {least_all} and {least_shadow} are not resolved",
-        count(Set::Area),
-        count(Set::Shadow),
+        reference.count(Set::Area),
+        reference.count(Set::Shadow),
     )
 }
 
@@ -109,8 +101,7 @@ fn slopes(comparison: &Comparison) -> Vec<String> {
     let fitted = |slope: Option<f64>| {
         slope.map_or("-".to_owned(), |slope| format!("{slope:.2} (like {})", nearest_law(slope).1))
     };
-    let laws: Vec<String> = LAWS.iter().map(|(slope, what)| format!("{what} {slope}")).collect();
-    let mut lines = vec![format!("error ~ elements^k; in theory {}", laws.join(", "))];
+    let mut lines = vec![format!("error ~ elements^k; in theory {}", laws())];
     lines.extend(comparison.verdict.bands.iter().map(|verdict| {
         let [uniform, adaptive] = verdict.slopes.fitted.map(fitted);
         format!("  {:<14}uniform {uniform}, adaptive {adaptive}", verdict.band.name())

@@ -42,11 +42,8 @@ impl<'a> Locator<'a> {
     /// A locator in the mesh of a scene of this extent, m.
     pub fn new(mesh: &'a TriMesh, extent: f64) -> Self {
         let corner = |v: u32| mesh.positions[v as usize];
-        let ends = mesh.triangles.iter().flatten().map(|&v| corner(v));
-        let (low, high) = ends.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
-            (low.min(p), high.max(p))
-        });
-        let centre = if low.is_finite() { low.midpoint(high) } else { DVec3::ZERO };
+        let (low, high) = mesh.bounds();
+        let centre = low.midpoint(high);
         // Grown so that rounding to 32 bits loses nothing.
         let margin = Vec3A::splat((1e-6 * extent) as f32);
         let bounds = |triangle: &[u32; 3]| {

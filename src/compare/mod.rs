@@ -39,7 +39,7 @@ pub use report::{Account, report};
 pub use run::{Family, Lit, Run, Seconds};
 pub use sampler::Site;
 pub use score::{Band, Errors, Score, score};
-pub use sentences::{number, percent};
+pub use sentences::{laws, number, percent};
 pub use verdict::{
     AtEqualCost, AtEqualError, BandVerdict, Contest, Cost, LAWS, Slopes, TIE, Verdict, Winner,
     nearest_law,

@@ -91,11 +91,10 @@ impl<'a> Record<'a> {
 
 impl<'a> About<'a> {
     fn new(reference: &'a Reference) -> Self {
-        let count = |set| reference.points.iter().filter(|point| point.set == set).count();
         Self {
             origin: &reference.origin,
-            area_points: count(Set::Area),
-            shadow_points: count(Set::Shadow),
+            area_points: reference.count(Set::Area),
+            shadow_points: reference.count(Set::Shadow),
             area_noise: reference.noise(Set::Area),
             shadow_noise: reference.noise(Set::Shadow),
         }

@@ -131,6 +131,11 @@ impl Reference {
         Some(Self { points, in_band, origin })
     }
 
+    /// Number of places of a set.
+    pub fn count(&self, set: Set) -> usize {
+        self.points.iter().filter(|point| point.set == set).count()
+    }
+
     /// Root mean square of the standard errors over the mean radiosity of a set; zero for one without points.
     pub fn noise(&self, set: Set) -> f64 {
         let chosen = || self.points.iter().filter(|point| point.set == set);

@@ -64,6 +64,17 @@ pub struct Errors {
     pub floor: f64,
 }
 
+impl Errors {
+    /// The root mean square error in per cent, or its floor if it is not resolved, and either in words; `None`
+    /// without light.
+    pub fn in_percent(&self) -> Option<(f64, String)> {
+        let lies_below = self.rmse <= self.floor;
+        let value = 100.0 * self.rmse.max(self.floor);
+        let sign = if lies_below { "<" } else { "" };
+        (self.mean > 0.0).then(|| (value, format!("{sign}{value:.2}")))
+    }
+}
+
 /// A mesh against a reference.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Score {

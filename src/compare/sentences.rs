@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use super::curve::Needed;
 use super::run::Family;
 use super::score::Band;
-use super::verdict::{AtEqualCost, AtEqualError, BandVerdict, Cost, Verdict, Winner};
+use super::verdict::{AtEqualCost, AtEqualError, BandVerdict, Cost, LAWS, Verdict, Winner};
 
 impl Verdict {
     /// Two sentences about all surfaces: at equal error, and at equal cost.
@@ -134,6 +134,12 @@ fn factor(at: &AtEqualError) -> Option<String> {
         _ => "",
     };
     Some(format!("{bound}{} times", number(ratio)))
+}
+
+/// The theoretical slopes.
+pub fn laws() -> String {
+    let laws: Vec<String> = LAWS.iter().map(|(slope, what)| format!("{what} {slope}")).collect();
+    laws.join(", ")
 }
 
 /// A share as per cent, to two digits that count.

@@ -4,7 +4,6 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::punctual::{self, Source};
 use super::{AreaLamp, Lamps};
 use crate::colour::Rgb;
 use crate::visibility::Occluders;
@@ -51,19 +50,7 @@ impl Lamps {
                 light += *sent - lamp.exitance * hidden(lamp, above, sent.element_sum() / all);
             }
         }
-        for point in &self.points {
-            let Some((irradiance, source)) = punctual::irradiance(point, place, normal) else {
-                continue;
-            };
-            let far_end = match source {
-                Source::Position(position) => position,
-                Source::Direction(direction) => place + direction * occluders.extent(),
-            };
-            if !occluders.blocks(place, far_end) {
-                light += irradiance;
-            }
-        }
-        light
+        light + self.points_shine(occluders, place, normal).irradiance
     }
 }
 

@@ -10,7 +10,7 @@ use super::{AreaLamp, Glow};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon_above;
 use crate::scene::Sky;
-use crate::surface::{Surface, Surfaces};
+use crate::surface::Surfaces;
 use crate::visibility::{HalfSpace, Polygon};
 
 /// Half the width of the box, in extents of the scene: the horizon is off by less than 1e-4 radians.
@@ -24,7 +24,7 @@ const SUN_RADIUS: f64 = 0.2666;
 ///
 /// They end at the height of the scene's top, so that nothing that faces down sees them.
 pub(super) fn lamps(surfaces: &Surfaces, sky: Sky, irradiance: Rgb) -> Vec<AreaLamp> {
-    let Some((low, high)) = bounds(surfaces) else { return Vec::new() };
+    let Some((low, high)) = surfaces.bounds() else { return Vec::new() };
     let (centre, size) = (low.midpoint(high).with_y(high.y), FAR * surfaces.extent);
     let (exitance, glow) = match sky {
         Sky::Uniform => (irradiance, Glow::Even),
@@ -42,7 +42,7 @@ pub(super) fn lamps(surfaces: &Surfaces, sky: Sky, irradiance: Rgb) -> Vec<AreaL
 /// A sun that shines along a unit `direction`, with this irradiance of a plane that faces it, W/m²: a square of
 /// the disc's solid angle.
 pub(super) fn sun(surfaces: &Surfaces, direction: DVec3, irradiance: Rgb) -> Option<AreaLamp> {
-    let (low, high) = bounds(surfaces)?;
+    let (low, high) = surfaces.bounds()?;
     let (middle, distance) = (low.midpoint(high), FAR * surfaces.extent);
     let half = distance * SUN_RADIUS.to_radians().tan() * PI.sqrt() / 2.0;
     let x = DVec3::Y.cross(direction).try_normalize().unwrap_or(DVec3::X);
@@ -53,11 +53,6 @@ pub(super) fn sun(surfaces: &Surfaces, direction: DVec3, irradiance: Rgb) -> Opt
     let factor = point_to_polygon_above(middle, -direction, &corners);
     let (front, exitance) = (HalfSpace::new(centre, direction), irradiance / factor);
     Some(AreaLamp { corners, front, exitance, glow: Glow::Surface })
-}
-
-fn bounds(surfaces: &Surfaces) -> Option<(DVec3, DVec3)> {
-    let bounds = surfaces.list.iter().map(Surface::bounds);
-    bounds.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)))
 }
 
 /// The squares of a box of height 1 around the origin, without a bottom, facing inward.

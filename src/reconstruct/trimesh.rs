@@ -37,6 +37,17 @@ pub struct TriMesh {
     pub hanging: usize,
 }
 
+impl TriMesh {
+    /// Least and greatest coordinates of the triangles, m; both zero if there is none.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        let mut corners = self.triangles.iter().flatten().map(|&c| self.positions[c as usize]);
+        let Some(first) = corners.next() else {
+            return (DVec3::ZERO, DVec3::ZERO);
+        };
+        corners.fold((first, first), |(low, high), p| (low.min(p), high.max(p)))
+    }
+}
+
 /// Light that arrives at a vertex, W/m²: B = E + ρ (direct + indirect).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Irradiance {

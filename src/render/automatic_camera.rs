@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::caster::{Caster, Hit, Sides, bounds};
+use super::caster::{Caster, Hit, Sides};
 use super::rays::Rays;
 use super::shade::radiosity_at;
 use crate::colour::luminance;
@@ -68,7 +68,7 @@ pub fn automatic_camera(mesh: &TriMesh, aspect: f64) -> Camera {
 }
 
 fn extent(mesh: &TriMesh) -> f64 {
-    let (low, high) = bounds(mesh);
+    let (low, high) = mesh.bounds();
     (high - low).max_element()
 }
 
@@ -120,7 +120,7 @@ fn fronts(mesh: &TriMesh, back: DVec3) -> impl Iterator<Item = DVec3> {
 
 /// Views from the corners and the walls of the mesh's box to the opposite side, slightly down.
 fn inside_views(mesh: &TriMesh) -> Vec<Camera> {
-    let (low, high) = bounds(mesh);
+    let (low, high) = mesh.bounds();
     let at = |x: f64, y: f64, z: f64| low + (high - low) * DVec3::new(x, y, z);
     let sides = [0.06, 0.5, 0.94];
     let mut views = Vec::new();

@@ -53,7 +53,7 @@ struct Triangle {
 
 impl Caster {
     pub(super) fn new(mesh: &TriMesh) -> Self {
-        let (low, high) = bounds(mesh);
+        let (low, high) = mesh.bounds();
         let centre = (low + high) / 2.0;
         let size = Some((high - low).max_element()).filter(|size| *size > 0.0).unwrap_or(1.0);
         let corners = |triangle: usize| {
@@ -119,15 +119,6 @@ impl Triangle {
         let weights = weights / weights.element_sum();
         Some(Hit { triangle: self.index, distance, weights, front })
     }
-}
-
-/// Least and greatest coordinates of the mesh's triangles, m; both zero if there is none.
-pub(super) fn bounds(mesh: &TriMesh) -> (DVec3, DVec3) {
-    let mut corners = mesh.triangles.iter().flatten().map(|&c| mesh.positions[c as usize]);
-    let Some(first) = corners.next() else {
-        return (DVec3::ZERO, DVec3::ZERO);
-    };
-    corners.fold((first, first), |(low, high), p| (low.min(p), high.max(p)))
 }
 
 fn padded_box([a, b, c]: [DVec3; 3]) -> Aabb {

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::probe::Reading;
 use crate::error::{Error, Result};
-use crate::surface::{Surface, Surfaces};
+use crate::surface::Surfaces;
 use crate::visibility::{Met, Occluders};
 
 /// Most places of a grid.
@@ -55,9 +55,7 @@ impl WorkPlane {
     /// # Errors
     /// When height and spacing make no plane within the scene, there are too many places, or none is left.
     pub fn places(&self, surfaces: &Surfaces) -> Result<Vec<(DVec3, DVec3)>> {
-        let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let join = |(low, high): (DVec3, DVec3), (a, b): (DVec3, DVec3)| (low.min(a), high.max(b));
-        let (low, high) = surfaces.list.iter().map(Surface::bounds).fold(empty, join);
+        let (low, high) = surfaces.bounds().unwrap_or_default();
         let size = high - low;
         self.check(size)?;
         let axis = |low: f64, size: f64| {

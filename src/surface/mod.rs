@@ -114,6 +114,12 @@ fn of_regions(scene: &Scene, regions: Vec<merge::Region>) -> Surfaces {
 }
 
 impl Surfaces {
+    /// Opposite corners of the box around all surfaces, m; `None` without any.
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        let bounds = self.list.iter().map(Surface::bounds);
+        bounds.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)))
+    }
+
     /// Area of all surfaces, m².
     pub fn area(&self) -> f64 {
         self.list.iter().map(Surface::area).sum()

@@ -2,8 +2,8 @@
 
 use crate::compare::comparison::Comparison;
 use crate::compare::run::{Family, Run};
-use crate::compare::sentences::percent;
-use crate::compare::verdict::{BandVerdict, Cost, LAWS, nearest_law};
+use crate::compare::sentences::{laws, percent};
+use crate::compare::verdict::{BandVerdict, Cost, nearest_law};
 use crate::page::{self, Axis, Curve, Markup, Plot, Stroke, html};
 
 /// sRGB-coded: uniform, adaptive, and the truth; told apart by the colour-blind, and by their marks.
@@ -68,12 +68,11 @@ fn slopes(verdict: &BandVerdict) -> String {
             format!("{slope:.2}, nearest to that of {}", nearest_law(slope).1)
         })
     };
-    let laws: Vec<String> = LAWS.iter().map(|(slope, what)| format!("{what} {slope}")).collect();
     format!(
         "Fitted slope against elements: uniform {}; adaptive {}. In theory: {}.",
         fitted(0),
         fitted(1),
-        laws.join(", ")
+        laws()
     )
 }
 

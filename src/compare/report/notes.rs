@@ -27,8 +27,7 @@ pub(super) fn notes(comparison: &Comparison, of_scene: &[String]) -> Markup {
 
 fn reference(comparison: &Comparison) -> String {
     let reference = &comparison.reference;
-    let count = |set| reference.points.iter().filter(|point| point.set == set).count();
-    let (area, shadow) = (count(Set::Area), count(Set::Shadow));
+    let [area, shadow] = [Set::Area, Set::Shadow].map(|set| reference.count(set));
     let origin = match &reference.origin {
         Origin::Traced { rounds, paths, seconds } => format!(
             "direct light by an exact formula, reflected light by {} paths from each place in {rounds} independent \

@@ -75,15 +75,8 @@ fn row(run: &Run) -> Vec<Cell> {
 
 /// A root mean square error; below its floor it only says so.
 fn error(run: &Run, band: Band) -> Cell {
-    let errors = run.score.of(band);
-    match errors.mean > 0.0 {
-        true if errors.rmse <= errors.floor => {
-            let value = 100.0 * errors.floor;
-            Cell::Number { value, shown: format!("<{value:.2}") }
-        }
-        true => Cell::number(100.0 * errors.rmse, 2),
-        false => Cell::Empty,
-    }
+    let error = run.score.of(band).in_percent();
+    error.map_or(Cell::Empty, |(value, shown)| Cell::Number { value, shown })
 }
 
 /// Sizes, levels, reasons, angles and hanging vertices.
