@@ -9,15 +9,16 @@ use radiosity::render::{self, Display, RenderOptions, View};
 use radiosity::scene::{Camera, LoadOptions};
 use radiosity::solver::Progress;
 use radiosity::tone::{Exposure, exposure_scale};
-use radiosity::{Settings, Solution, TriMesh, load, reconstruct, solve_in_stages, surfaces_of};
+use radiosity::{Plan, Settings, Solution, TriMesh, load, reconstruct, solve_with, surfaces_of};
 
 fn main() -> radiosity::Result<()> {
     let scene = load(Path::new("scenes/cornell-box.glb"), &LoadOptions::default())?;
     let surfaces = surfaces_of(&scene);
     // The first shot is the lamp's.
     let reflected = [1, 2, 24, 100, 1000].map(|shots| shots - 1);
+    let plan = Plan { stages: &reflected, ..Plan::default() };
     let go_on = |_: &Progress| ControlFlow::Continue(());
-    let (_, stages) = solve_in_stages(&surfaces, &Settings::draft(), &reflected, go_on)?;
+    let (_, stages) = solve_with(&surfaces, &Settings::draft(), plan, go_on)?;
     let mut steps: Vec<(TriMesh, Solution)> =
         stages.into_iter().map(|stage| (reconstruct(&surfaces, &stage), stage)).collect();
     let Some((reference, end)) = steps.pop() else {

@@ -1,5 +1,7 @@
 //! What a user may choose about a solution, the presets that choose it, and what is out of range.
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::{Error, Result};
 
 /// How finely and how long to compute; every field has a default that works on a room.
@@ -49,7 +51,7 @@ pub struct Settings {
 }
 
 /// The classic relaxations: who is next.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Method {
     /// All in turn, each sending what it held when the turn began: simultaneous displacement.
     Jacobi,

@@ -69,7 +69,7 @@ pub(crate) fn check_endings<'a>(
     }
 }
 
-fn refuse_input(input: &Path, output: &Path) -> Result<()> {
+pub(crate) fn refuse_input(input: &Path, output: &Path) -> Result<()> {
     match (input.canonicalize(), output.canonicalize()) {
         (Ok(input), Ok(output)) if input == output => {
             Err(Error::format(&output, "is the file that is read; write to another"))

@@ -10,7 +10,7 @@ use radiosity::render::{self, Solved, Subject};
 use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
 use radiosity::{
-    Error, Scene, Settings, Solution, Surfaces, reconstruct, solve_in_stages, surfaces_of,
+    Error, Plan, Scene, Settings, Solution, Surfaces, reconstruct, solve_with, surfaces_of,
 };
 
 use super::estimate::Estimate;
@@ -19,8 +19,8 @@ use super::grid::GridOptions;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
 use super::options::{
-    AccuracyOptions, CameraChoice, HINT, LimitOptions, PictureOptions, ReportOptions, SceneOptions,
-    display,
+    AccuracyOptions, CameraChoice, CheckpointOptions, HINT, LimitOptions, PictureOptions,
+    ReportOptions, SceneOptions, display,
 };
 use super::page::{Account, PageOptions};
 use super::record::{CameraRecord, SettingsRecord, stamped};
@@ -69,6 +69,9 @@ pub(crate) struct Solve {
     limits: LimitOptions,
 
     #[command(flatten)]
+    checkpoint: CheckpointOptions,
+
+    #[command(flatten)]
     picture: PictureOptions,
 
     #[command(flatten)]
@@ -89,6 +92,7 @@ Examples:
   radiosity solve kitchen.obj --image final.png --image mesh.png --view light,reason --final-gather
   radiosity solve scenes/office.obj --quality draft --html office.html --snapshots 1,2,24,100
   radiosity solve scenes/bare-room.obj --emit 'lamp*=800lm' --sky cie-overcast --image lit.png
+  radiosity solve hall.glb -o lit.glb --quality high --checkpoint hall.work --resume
   radiosity solve room.obj --ies spot.ies@2,2.6,3 --grid 0.75,0.5 --grid-csv desk.csv
   radiosity solve scenes/blocker.obj --uniform 0.1 --image uniform.png --eye 1,2,3 --target 0,0,0";
 
@@ -109,11 +113,7 @@ impl Solve {
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
         settings.validate_for(surfaces.area(), surfaces.extent)?;
         self.announce((&surfaces, &settings), &settings_record, &meter);
-        let stages = self.page.stages();
-        let (solution, stages) = solve_in_stages(&surfaces, &settings, &stages, |progress| {
-            meter.follow(progress);
-            interrupt.flow()
-        })?;
+        let (solution, stages) = self.light(&surfaces, &settings, &interrupt, &mut meter)?;
         refuse_darkness(&solution)?;
         tell_if_full(&solution, &meter);
         meter.begin("triangles");
@@ -157,6 +157,33 @@ impl Solve {
         })
     }
 
+    /// The solution, and its stages.
+    fn light(
+        &self,
+        surfaces: &Surfaces,
+        settings: &Settings,
+        interrupt: &Interrupt,
+        meter: &mut Meter,
+    ) -> Result<(Solution, Vec<Solution>), Failure> {
+        let (mut checkpoint, goes_on) = self.checkpoint.open(surfaces, settings)?;
+        if goes_on {
+            meter.tell("going on from the checkpoint");
+        }
+        let stages = self.page.stages();
+        let plan = Plan { stages: &stages, checkpoint: Some(&mut checkpoint) };
+        let solutions = solve_with(surfaces, settings, plan, |progress| {
+            meter.follow(progress);
+            interrupt.flow()
+        });
+        if solutions.is_err() && !goes_on {
+            self.checkpoint.remove();
+        }
+        if let Some(failure) = checkpoint.failure() {
+            meter.tell(&format!("note: the checkpoint is of no use any more: {failure}"));
+        }
+        Ok(solutions?)
+    }
+
     /// What is asked for, and what to expect of it.
     fn announce(
         &self,
@@ -184,6 +211,7 @@ impl Solve {
     fn check(&self) -> Result<(), Failure> {
         let tables: Vec<&Path> = self.tables().map(PathBuf::as_path).collect();
         outputs::check(&self.scene.path, &self.output, &self.image, &tables)?;
+        self.checkpoint.check(&self.scene.path)?;
         self.page.check()?;
         self.picture.views(&self.image)?;
         Ok(())

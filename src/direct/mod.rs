@@ -146,6 +146,16 @@ impl Lamps {
         self.tally.rays()
     }
 
+    /// Evaluations and rays so far.
+    pub(crate) fn counts(&self) -> [u64; 2] {
+        [self.evaluations(), self.rays()]
+    }
+
+    /// Counts on from these.
+    pub(crate) fn count_from(&self, [evaluations, rays]: [u64; 2]) {
+        self.tally.set(evaluations, rays);
+    }
+
     /// What arrives at a place with unit `normal`.
     pub fn shine(&self, occluders: &Occluders, place: DVec3, normal: DVec3) -> Direct {
         let shine = |lamp: &AreaLamp| lamp.shine((occluders, None), (place, normal), self.rows);

@@ -19,6 +19,12 @@ impl Tally {
         }
     }
 
+    /// Goes on from these sums.
+    pub(super) fn set(&self, evaluations: u64, rays: u64) {
+        self.evaluations.store(evaluations, Ordering::Relaxed);
+        self.rays.store(rays, Ordering::Relaxed);
+    }
+
     pub(super) fn evaluations(&self) -> u64 {
         self.evaluations.load(Ordering::Relaxed)
     }

@@ -9,6 +9,7 @@ mod validate;
 use std::ops::Add;
 
 use glam::{DVec2, DVec3};
+use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use crate::colour::Rgb;
@@ -118,7 +119,7 @@ pub struct Vertex {
 }
 
 /// Light straight from emitters that arrives at a point.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Direct {
     /// Irradiance, W/m².
     pub irradiance: Rgb,

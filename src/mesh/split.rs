@@ -4,6 +4,7 @@
 //! an edge find the same vertices on it.
 
 use glam::DVec2;
+use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use super::{Corners, Element, ElementId, Mesh, Reason, VertexId};
@@ -13,7 +14,7 @@ use crate::surface::polygon::{self, Convex};
 const LONG: f64 = 1.8;
 
 /// How to divide an element.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Split {
     /// A triangle or quadrilateral in four, any other polygon in one quadrilateral per corner.
     Quarters,
@@ -25,7 +26,7 @@ pub enum Split {
 }
 
 /// A place on the border of an element.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Crossing {
     /// The edge, counted from that from the first to the second corner.
     pub edge: usize,

@@ -2,6 +2,8 @@
 
 use glam::DVec2;
 use rayon::prelude::*;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use super::{Observer, Phase};
 use crate::colour::Rgb;
@@ -25,23 +27,39 @@ pub(super) struct World<'a> {
 }
 
 /// Evaluates direct light at all vertices that lack it.
-pub(super) fn light(world: World<'_>, mesh: &mut Mesh) {
+pub(super) fn light(world: World<'_>, mesh: &mut Mesh, observer: &mut Observer<'_>) {
     let dark: Vec<usize> =
         (0..mesh.vertices.len()).filter(|&v| mesh.vertices[v].direct.is_none()).collect();
-    let vertices: Vec<&Vertex> = dark.iter().map(|&v| &mesh.vertices[v]).collect();
-    let lit = world.light.at_vertices(&vertices);
+    let shine = |&v: &usize| world.light.at(mesh.vertices[v].patch, mesh.vertices[v].site);
+    let lit = evaluate(world.light, &dark, shine, observer);
     for (vertex, direct) in dark.into_iter().zip(lit) {
         mesh.vertices[vertex].direct = Some(direct);
     }
 }
 
+/// What `work` makes of each item, in their order.
+fn evaluate<T: Sync, R: Send + Serialize + DeserializeOwned>(
+    light: &PatchLight,
+    items: &[T],
+    work: impl Fn(&T) -> R + Sync,
+    observer: &mut Observer<'_>,
+) -> Vec<R> {
+    let lamps = light.lamps();
+    let batches = observer
+        .evaluate(items, |batch| (batch.par_iter().map(&work).collect::<Vec<R>>(), lamps.counts()));
+    if let Some((_, counts)) = batches.last() {
+        lamps.count_from(*counts);
+    }
+    batches.into_iter().flat_map(|(results, _)| results).collect()
+}
+
 /// Evaluates direct light at the corners and in the middle of all leaves, as their means need.
-pub(super) fn light_leaves(world: World<'_>, mesh: &mut Mesh) {
+pub(super) fn light_leaves(world: World<'_>, mesh: &mut Mesh, observer: &mut Observer<'_>) {
     let leaves: Vec<ElementId> = mesh.leaves().collect();
     for leaf in leaves {
         mesh.middle(leaf);
     }
-    light(world, mesh);
+    light(world, mesh, observer);
 }
 
 /// Refines the mesh until direct light can be interpolated; leaves a uniform mesh as it is.
@@ -54,7 +72,7 @@ pub(super) fn refine(
     if observer.tell(Phase::Direct, 0.0).is_break() {
         return;
     }
-    light(world, mesh);
+    light(world, mesh, observer);
     if settings.uniform.is_some() {
         return;
     }
@@ -72,11 +90,12 @@ pub(super) fn refine(
         }
         candidates.retain(|&e| oracle.may_divide(mesh, e) && reflects(mesh, e));
         let middles: Vec<Middle> = candidates.iter().map(|&e| mesh.middle(e)).collect();
-        light(world, mesh);
-        let judged = candidates.par_iter().zip(&middles);
-        let verdicts: Vec<Option<Split>> = judged
-            .map(|(&e, middle)| divide((world, mesh), (&oracle, &lines), e, middle))
-            .collect();
+        light(world, mesh, observer);
+        let judged: Vec<(ElementId, &Middle)> = candidates.iter().copied().zip(&middles).collect();
+        let judge = |&(element, middle): &(ElementId, &Middle)| {
+            divide((world, mesh), (&oracle, &lines), element, middle)
+        };
+        let verdicts: Vec<Option<Split>> = evaluate(world.light, &judged, judge, observer);
         if !mesh.has_room_for(verdicts.iter().flatten().count()) {
             return;
         }

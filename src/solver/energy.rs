@@ -1,9 +1,11 @@
 //! Where the emitted power has gone.
 
+use serde::{Deserialize, Serialize};
+
 use crate::colour::Rgb;
 
 /// Powers, W per channel; what was emitted is what was absorbed, escaped or is still unshot.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
     /// Sent out by emitters; of lights without a surface, what arrives in the scene.
     pub emitted: Rgb,

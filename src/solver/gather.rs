@@ -8,8 +8,10 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
+use super::Observer;
 use super::sources::{Piece, Sources};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
@@ -35,6 +37,7 @@ const STALE: f64 = 8.0;
 type View = SmallVec<[(PatchId, f64); 8]>;
 
 /// What one gathering found.
+#[derive(Serialize, Deserialize)]
 struct Gathered {
     /// W/m².
     irradiance: Rgb,
@@ -78,22 +81,28 @@ impl<'a> Gatherer<'a> {
     }
 
     /// Evaluates indirect light at those of the vertices that lack it.
-    pub(super) fn light(&mut self, mesh: &mut Mesh, vertices: impl IntoIterator<Item = VertexId>) {
+    pub(super) fn light(
+        &mut self,
+        mesh: &mut Mesh,
+        vertices: impl IntoIterator<Item = VertexId>,
+        observer: &mut Observer<'_>,
+    ) {
         let mut dark: Vec<VertexId> =
             vertices.into_iter().filter(|&v| mesh[v].indirect.is_none()).collect();
         dark.sort_unstable();
         dark.dedup();
         let targets = Targets::new(&mesh.patches);
-        let lit: Vec<Gathered> = dark
-            .par_iter()
-            .map_init(
-                || Hemicube::new(&self.delta, &targets, self.occluders),
-                |hemicube, &vertex| self.gather(mesh, hemicube, vertex),
-            )
-            .collect();
-        self.gathered += lit.len();
+        let lit: Vec<Vec<Gathered>> = observer.evaluate(&dark, |batch| {
+            let hemicube = || Hemicube::new(&self.delta, &targets, self.occluders);
+            let gather =
+                |hemicube: &mut Hemicube<'_>, &v: &VertexId| self.gather(mesh, hemicube, v);
+            batch.par_iter().map_init(hemicube, gather).collect()
+        });
+        self.gathered += dark.len();
         self.views.resize(mesh.vertices.len(), None);
-        for (&vertex, Gathered { irradiance, view, factors }) in dark.iter().zip(lit) {
+        for (&vertex, Gathered { irradiance, view, factors }) in
+            dark.iter().zip(lit.into_iter().flatten())
+        {
             self.factors += factors;
             mesh.vertices[vertex.index()].indirect = Some(irradiance);
             self.views[vertex.index()] = Some(view);

@@ -22,12 +22,12 @@ pub(super) fn refine(
     let _ = observer.tell(Phase::Gathering, 0.0);
     if settings.uniform.is_some() {
         let leaves: Vec<ElementId> = mesh.leaves().filter(|&e| reflects(mesh, e)).collect();
-        gatherer.light(mesh, corners(mesh, &leaves));
+        gatherer.light(mesh, corners(mesh, &leaves), observer);
         return;
     }
     let roots = mesh.patches.iter().map(|patch| patch.root);
     let mut candidates: Vec<ElementId> = roots.filter(|&e| reflects(mesh, e)).collect();
-    gatherer.light(mesh, corners(mesh, &candidates));
+    gatherer.light(mesh, corners(mesh, &candidates), observer);
     for level in 0..settings.max_level {
         let share = (f64::from(level) + 1.0) / (f64::from(settings.max_level) + 1.0);
         if observer.tell(Phase::Gathering, share).is_break() {
@@ -37,7 +37,7 @@ pub(super) fn refine(
         let middles: Vec<Middle> = candidates.iter().map(|&e| mesh.middle(e)).collect();
         let mut places = corners(mesh, &candidates);
         places.extend(middles.iter().flat_map(|m| m.edges.iter().copied().chain([m.centre])));
-        gatherer.light(mesh, places);
+        gatherer.light(mesh, places, observer);
         candidates = divide(oracle, mesh, &candidates, &middles);
     }
 }

@@ -4,11 +4,13 @@
 //! refines the mesh. Reflected light is exchanged between patches, coarsely. What arrives of it at
 //! the vertices is then gathered, and refines the mesh where it varies.
 
+mod checkpoint;
 mod direct_pass;
 mod element_light;
 mod energy;
 mod gather;
 mod indirect_pass;
+mod observer;
 mod probe;
 mod progressive;
 pub mod relaxation;
@@ -20,6 +22,8 @@ mod work_plane;
 
 use std::ops::ControlFlow;
 
+use serde::{Deserialize, Serialize};
+
 use crate::colour::Rgb;
 use crate::direct::{Lamps, PatchLight};
 use crate::error::{Error, Result};
@@ -29,6 +33,7 @@ use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
 
+pub use checkpoint::Checkpoint;
 pub use element_light::ElementLight;
 pub use energy::Energy;
 pub use probe::{Reading, read};
@@ -37,6 +42,7 @@ pub use work_plane::{Evenness, WorkPlane};
 
 use direct_pass::World;
 use gather::Gatherer;
+use observer::Observer;
 use progressive::Shooting;
 use relaxation::Step;
 use sources::Sources;
@@ -72,7 +78,7 @@ impl Solution {
 }
 
 /// Why a solver stopped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Stop {
     /// The unshot power fell below [`Settings::stop`]; of a [`relaxation::System`], its residual
     /// below what was asked for.
@@ -108,21 +114,6 @@ pub enum Phase {
     Gathering,
 }
 
-/// Tells a caller how far things are, and remembers if it has had enough.
-struct Observer<'a> {
-    observe: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>,
-    flow: ControlFlow<()>,
-}
-
-impl Observer<'_> {
-    fn tell(&mut self, phase: Phase, done: f64) -> ControlFlow<()> {
-        if self.flow.is_continue() {
-            self.flow = (self.observe)(&Progress { phase, done: done.clamp(0.0, 1.0) });
-        }
-        self.flow
-    }
-}
-
 /// What is said of a scene without light.
 const DARK: &str = "nothing in the scene emits light; give a material an emission \
                     (Ke in an MTL file, emissiveFactor in glTF) or add a light";
@@ -145,26 +136,40 @@ pub fn solve(
     settings: &Settings,
     observe: impl FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<Solution> {
-    solve_in_stages(surfaces, settings, &[], observe).map(|(solution, _)| solution)
+    solve_with(surfaces, settings, Plan::default(), observe).map(|(solution, _)| solution)
 }
 
-/// The same, and what the light was after each of these numbers of `shots` of reflected light, 0
-/// being what comes straight from emitters, with the light still unshot estimated as ambient.
+/// What a solution is to leave besides itself.
+#[derive(Debug, Default)]
+pub struct Plan<'a> {
+    /// Numbers of shots of reflected light after which it is wanted, too; 0 is what comes straight from
+    /// emitters.
+    pub stages: &'a [usize],
+    /// Where work is kept as it is done, and taken up again.
+    pub checkpoint: Option<&'a mut Checkpoint>,
+}
+
+/// The same by a plan; and what the light was at the stages, with the light still unshot estimated as ambient.
 ///
 /// All stages have the mesh that direct light has refined. Those that the exchange did not go beyond
 /// are left out; [`Solution::reflected_shots`] tells them apart.
 ///
 /// # Errors
 /// As [`solve`].
-pub fn solve_in_stages(
+pub fn solve_with(
     surfaces: &Surfaces,
     settings: &Settings,
-    shots: &[usize],
+    plan: Plan<'_>,
     mut observe: impl FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<(Solution, Vec<Solution>)> {
     settings.validate()?;
     settings.validate_for(surfaces.divided_area(), surfaces.extent)?;
-    let mut observer = Observer { observe: &mut observe, flow: ControlFlow::Continue(()) };
+    let mut nowhere = Checkpoint::default();
+    let Plan { stages, checkpoint } = plan;
+    let checkpoint = checkpoint.unwrap_or(&mut nowhere);
+    let settings = &checkpoint.settings(settings);
+    let flow = ControlFlow::Continue(());
+    let mut observer = Observer { observe: &mut observe, flow, checkpoint };
     let mut mesh = Mesh::new(surfaces, settings);
     check_reflectances(surfaces, &mesh)?;
     let lamps = Lamps::new(surfaces, &mesh).seen_by(settings.shadow_rays);
@@ -175,8 +180,8 @@ pub fn solve_in_stages(
     let world = World { surfaces, occluders: light.occluders(), light: &light };
 
     direct_pass::refine(world, settings, &mut mesh, &mut observer);
-    direct_pass::light_leaves(world, &mut mesh);
-    let stages = stages::stages(world, settings, (&mesh, shots), &mut observer)?;
+    direct_pass::light_leaves(world, &mut mesh, &mut observer);
+    let stages = stages::stages(world, settings, (&mesh, stages), &mut observer)?;
     let mut exchange = Exchange::new(world, settings, &mesh, &mut observer)?;
     let (gathered, gathering) = if exchange.stop == Stop::Converged {
         gather(world, settings, (&mut mesh, &mut exchange), &mut observer)
@@ -211,7 +216,7 @@ fn gather(
         Gatherer::new((world.surfaces, world.occluders), exchange.sources(mesh), fine);
     for round in 1..=ROUNDS {
         indirect_pass::refine((settings, &oracle), &mut gatherer, mesh, observer);
-        direct_pass::light_leaves(world, mesh);
+        direct_pass::light_leaves(world, mesh, observer);
         if round < ROUNDS && observer.flow.is_continue() {
             indirect_pass::interpolate(mesh);
             gatherer.replace_sources(mesh, Sources::of_vertices(mesh));

@@ -9,10 +9,11 @@
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::direct_pass::World;
 use super::energy::Energy;
-use super::relaxation::{Relaxation, Residuals, Step};
+use super::relaxation::{Course, Relaxation, Residuals, Step};
 use super::transport::{Row, row};
 use super::{ElementLight, Observer, Phase, Stop};
 use crate::colour::Rgb;
@@ -27,12 +28,30 @@ use crate::visibility::Occluders;
 const KEPT_LINKS: usize = 8_000_000;
 
 /// Light received and not yet shot.
+#[derive(Clone, Serialize, Deserialize)]
 struct Held {
     unshot: Vec<Rgb>,
     pending: Vec<Rgb>,
 }
 
-/// The state of a solution by shooting.
+/// What shooting has come to: the same, when it is taken up again, as if it had never been left.
+#[derive(Serialize, Deserialize)]
+struct State {
+    course: Course,
+    /// Why it has ended, once it has.
+    stop: Option<Stop>,
+    held: Held,
+    remembered: Option<Held>,
+    received: Vec<Rgb>,
+    energy: Energy,
+    shots: usize,
+    hemicubes: usize,
+    factors: u64,
+    /// Whose rows are there.
+    ready: Vec<PatchId>,
+}
+
+/// A solution by shooting under way.
 pub(super) struct Shooting<'a> {
     mesh: &'a Mesh,
     surfaces: &'a Surfaces,
@@ -128,23 +147,67 @@ impl<'a> Shooting<'a> {
         observer: &mut Observer<'_>,
     ) -> Result<(Stop, Vec<Step>)> {
         let relaxation = Relaxation::new(settings.solver, settings.omega)?;
-        let emitters = self.shots;
-        let start = self.energy.unshot_share().max(f64::MIN_POSITIVE);
-        let (stop, history) = relaxation.run(self, |step| {
-            if step.unshot <= settings.stop {
-                return Some(Stop::Converged);
-            }
-            if settings.max_shots.is_some_and(|most| emitters + step.shots >= most) {
-                return Some(Stop::ShotLimit);
-            }
-            let done = (step.unshot / start).ln() / (settings.stop / start).ln();
-            observer.tell(Phase::Shooting, done).is_break().then_some(Stop::Cancelled)
+        let (emitters, start) = (self.shots, self.energy.unshot_share().max(f64::MIN_POSITIVE));
+        let mut course = Course::new(relaxation, self);
+        let mut known = None;
+        if let Some(state) = last_state(observer) {
+            (course, known) = self.take_up(state);
+        }
+        let stop = known.unwrap_or_else(|| {
+            relaxation.run(self, &mut course, |shooting, course| {
+                let step = course.step();
+                if step.unshot <= settings.stop {
+                    return Some(Stop::Converged);
+                }
+                if settings.max_shots.is_some_and(|most| emitters + step.shots >= most) {
+                    return Some(Stop::ShotLimit);
+                }
+                let done = (step.unshot / start).ln() / (settings.stop / start).ln();
+                let was_going_on = observer.flow.is_continue();
+                let is_over = observer.tell(Phase::Shooting, done).is_break();
+                if was_going_on && (is_over || observer.checkpoint.is_due()) {
+                    observer.checkpoint.keep(&shooting.state(course, None));
+                }
+                is_over.then_some(Stop::Cancelled)
+            })
         });
         self.energy.unshot = self.unshot_power();
-        match stop {
-            Stop::Diverged => Err(diverged(settings)),
-            stop => Ok((stop, history)),
+        if stop == Stop::Diverged {
+            return Err(diverged(settings));
         }
+        if known.is_none() && observer.flow.is_continue() {
+            observer.checkpoint.keep(&self.state(&course, Some(stop)));
+        }
+        Ok((stop, course.history))
+    }
+
+    /// The state to go on from, once the history is this.
+    fn state(&self, course: &Course, stop: Option<Stop>) -> State {
+        let rows = self.rows.iter().enumerate().filter(|(_, row)| row.is_some());
+        State {
+            course: course.clone(),
+            stop,
+            held: Held { unshot: self.unshot.clone(), pending: self.pending.clone() },
+            remembered: self.remembered.clone(),
+            received: self.received.clone(),
+            energy: self.energy,
+            shots: self.shots,
+            hemicubes: self.hemicubes,
+            factors: self.factors,
+            ready: rows.map(|(row, _)| PatchId(row as u32)).collect(),
+        }
+    }
+
+    /// Goes on from a state, with the rows that were there made anew if any will be needed.
+    fn take_up(&mut self, state: State) -> (Course, Option<Stop>) {
+        if state.stop.is_none() {
+            self.make_rows(&state.ready);
+        }
+        (self.unshot, self.pending) = (state.held.unshot, state.held.pending);
+        (self.remembered, self.received) = (state.remembered, state.received);
+        (self.energy, self.shots) = (state.energy, state.shots);
+        (self.hemicubes, self.factors) = (state.hemicubes, state.factors);
+        (state.course, state.stop)
     }
 
     /// What a patch releases, W/m²; it holds that much less afterwards.
@@ -279,6 +342,16 @@ impl Residuals for Shooting<'_> {
         self.shots += 1;
         released
     }
+}
+
+/// The last state that was kept of an exchange; none after its end was.
+fn last_state(observer: &mut Observer<'_>) -> Option<State> {
+    let mut last: Option<State> = None;
+    while observer.flow.is_continue() && last.as_ref().is_none_or(|state| state.stop.is_none()) {
+        let Some(state) = observer.checkpoint.next() else { break };
+        last = Some(state);
+    }
+    last
 }
 
 /// Advice for a relaxation that will not end.

@@ -16,6 +16,8 @@ pub(super) fn stages(
 ) -> Result<Vec<Solution>> {
     let emitters = mesh.patches.iter().filter(|patch| patch.exitance.max_element() > 0.0).count();
     let mut stages = Vec::new();
+    // They are soon made anew, and not steps on the way to the solution.
+    let checkpoint = std::mem::take(observer.checkpoint);
     for shots in shots {
         let most = emitters.saturating_add(*shots);
         if settings.max_shots.is_some_and(|limit| limit <= most) {
@@ -30,5 +32,6 @@ pub(super) fn stages(
             stages.push(exchange.solution(mesh, 0, work));
         }
     }
+    *observer.checkpoint = checkpoint;
     Ok(stages)
 }

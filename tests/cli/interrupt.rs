@@ -83,3 +83,33 @@ fn killed_at_any_moment_it_leaves_no_broken_file() {
     }
     assert!(whole < 20, "no kill came in time");
 }
+
+/// However often it is killed, what is gone on with ends in the same bytes.
+#[test]
+fn killed_and_gone_on_with_it_ends_in_the_same_bytes() {
+    let place = Place::new();
+    let scene = scene("cornell-box.obj");
+    let solve =
+        |output: &'static str| ["solve", scene.as_str(), "--quality", "draft", "-q", "-o", output];
+    let kept = [&solve("kept.glb")[..], &["--checkpoint", "work", "--resume"]].concat();
+    place.run(&solve("whole.glb")).done();
+    for kill in 1..=6_u64 {
+        let mut child = place.command(&kept).spawn().expect("the command can be run");
+        std::thread::sleep(std::time::Duration::from_millis(150 * kill));
+        let _ = child.kill();
+        child.wait().expect("it ends");
+    }
+    place.run(&kept).done();
+    let bytes = |name: &str| std::fs::read(place.path(name)).expect("it was written");
+    assert!(bytes("whole.glb") == bytes("kept.glb"));
+
+    let again = [&solve("again.glb")[..], &["--checkpoint", "work"]].concat();
+    place.run(&again).refused(1, &["work", "--resume"]);
+    place
+        .run(&[&again[..], &["--resume", "--tolerance", "0.5"]].concat())
+        .refused(1, &["settings"]);
+    let pointless = [&solve("again.glb")[..], &["--resume"]].concat();
+    place.run(&pointless).refused(2, &["--checkpoint"]);
+    let onto_input = ["solve", scene.as_str(), "--checkpoint", scene.as_str(), "--resume"];
+    place.run(&onto_input).refused(1, &["the file that is read"]);
+}

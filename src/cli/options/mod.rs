@@ -1,6 +1,7 @@
 //! Options that subcommands share, grouped as the help shows them.
 
 mod accuracy;
+mod checkpoint;
 mod lights;
 mod limits;
 mod report;
@@ -9,6 +10,7 @@ pub(crate) mod values;
 mod view;
 
 pub(crate) use accuracy::{AccuracyOptions, MethodOptions};
+pub(crate) use checkpoint::CheckpointOptions;
 pub(crate) use lights::HINT;
 pub(crate) use limits::{LimitOptions, memory};
 pub(crate) use report::{ReportOptions, TalkOptions};

@@ -18,6 +18,8 @@ mod order;
 mod system;
 mod trend;
 
+use serde::{Deserialize, Serialize};
+
 use super::Stop;
 use crate::colour::Rgb;
 use crate::error::Result;
@@ -50,7 +52,7 @@ pub struct Criteria {
 }
 
 /// The state of a relaxation between two rows.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Step {
     /// Rows relaxed so far.
     pub shots: usize,
@@ -109,24 +111,44 @@ impl Relaxation {
     }
 
     /// Relaxes row after row until `judge` says why to stop, or no end is in sight.
-    pub(super) fn run(
+    pub(super) fn run<S: Residuals>(
         self,
-        system: &mut impl Residuals,
-        mut judge: impl FnMut(&Step) -> Option<Stop>,
-    ) -> (Stop, Vec<Step>) {
-        let mut order = Order::new(self.method);
-        let mut trend = Trend::new(system.rows());
-        let mut step = trend.step(system, None);
-        let mut history = vec![step];
+        system: &mut S,
+        course: &mut Course,
+        mut judge: impl FnMut(&S, &Course) -> Option<Stop>,
+    ) -> Stop {
         loop {
-            if let Some(stop) = judge(&step).or_else(|| trend.verdict(&step)) {
-                return (stop, history);
+            let hopeless = |course: &Course| course.trend.verdict(&course.step());
+            if let Some(stop) = judge(system, course).or_else(|| hopeless(course)) {
+                return stop;
             }
-            let Some(row) = order.next(system) else { return (Stop::Converged, history) };
+            let Some(row) = course.order.next(system) else { return Stop::Converged };
             let change = system.relax(row, self.omega);
-            step = trend.step(system, Some((row, change)));
-            history.push(step);
+            course.history.push(course.trend.step(system, Some((row, change))));
         }
+    }
+}
+
+/// How far a relaxation has come.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Course {
+    order: Order,
+    trend: Trend,
+    /// The state at the start, and after each row.
+    pub(super) history: Vec<Step>,
+}
+
+impl Course {
+    /// At the start.
+    pub(super) fn new(relaxation: Relaxation, system: &impl Residuals) -> Self {
+        let mut trend = Trend::new(system.rows());
+        let start = trend.step(system, None);
+        Self { order: Order::new(relaxation.method), trend, history: vec![start] }
+    }
+
+    /// The state after the row relaxed last.
+    pub(super) fn step(&self) -> Step {
+        self.history[self.history.len() - 1]
     }
 }
 

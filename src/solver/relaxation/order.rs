@@ -1,10 +1,12 @@
 //! Which row is next.
 
+use serde::{Deserialize, Serialize};
+
 use super::{BATCH, Residuals};
 use crate::settings::Method;
 
 /// The order of a method.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Order {
     method: Method,
     /// Rows taken so far.

@@ -1,7 +1,7 @@
 //! The assembled system: form factors, reflectances and exitances of n patches.
 
 use super::check::{check_exitance, check_reflectance, check_row};
-use super::{Criteria, Relaxation, Residuals, Step};
+use super::{Course, Criteria, Relaxation, Residuals, Step};
 use crate::colour::Rgb;
 use crate::error::Result;
 use crate::form_factor::FormFactors;
@@ -73,7 +73,10 @@ impl System {
     /// Relaxes the system, from darkness.
     pub fn relax(&self, relaxation: Relaxation, criteria: &Criteria) -> Relaxed {
         let mut state = State::dark(self);
-        let (stop, history) = relaxation.run(&mut state, |step| criteria.judge(step));
+        let mut course = Course::new(relaxation, &state);
+        let stop =
+            relaxation.run(&mut state, &mut course, |_, course| criteria.judge(&course.step()));
+        let history = course.history;
         Relaxed { radiosity: state.radiosity, stop, history }
     }
 

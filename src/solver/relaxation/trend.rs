@@ -1,5 +1,7 @@
 //! How a relaxation goes: what is left, and whether it ever ends.
 
+use serde::{Deserialize, Serialize};
+
 use super::{Residuals, Step};
 use crate::colour::Rgb;
 use crate::solver::Stop;
@@ -12,7 +14,7 @@ const GROWN: f64 = 1e6;
 const PATIENCE: usize = 100;
 
 /// Keeps the books from step to step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Trend {
     rows: usize,
     /// Share unshot at the start.
