@@ -94,5 +94,5 @@ pub use error::{Error, Result};
 pub use reconstruct::{TriMesh, reconstruct};
 pub use scene::{Scene, load};
 pub use settings::{Length, Settings};
-pub use solver::{Plan, Solution, solve, solve_with};
+pub use solver::{Plan, Solution, solve, solve_by_light, solve_with};
 pub use surface::{Surfaces, faces_of, surfaces_of};

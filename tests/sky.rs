@@ -29,7 +29,7 @@ fn floor(sky: Sky) -> Stage {
     let grey = stage.material(0.3, 0.0);
     let corners = [(0.0, 0.0), (0.0, 4.0), (4.0, 4.0), (4.0, 0.0)];
     stage.polygon(grey, &corners.map(|(x, z)| DVec3::new(x, 0.0, z)));
-    stage.scene.lights.push(Light::sky(sky, 1000.0));
+    stage.scene.lights.push(Light::sky(sky, 1000.0).into());
     stage
 }
 
@@ -83,7 +83,7 @@ fn room_with_window(sky: Sky, low: [f64; 2], high: [f64; 2]) -> Scene {
     part([0.0, high[1]], [4.0, 3.0]);
     part([0.0, low[1]], [low[0], high[1]]);
     part([high[0], low[1]], [4.0, high[1]]);
-    stage.scene.lights.push(Light::sky(sky, 1000.0));
+    stage.scene.lights.push(Light::sky(sky, 1000.0).into());
     stage.scene
 }
 
@@ -169,7 +169,7 @@ fn the_sun_stands_where_its_angles_say() {
     assert!((clear_sun(90.0) - 127_500.0 * (-0.21_f64).exp()).abs() < 1e-6);
     assert_eq!(clear_sun(-5.0), 0.0);
     let mut scene = floor(Sky::Uniform).scene;
-    scene.lights = vec![Light::sun(120.0, 30.0, 50_000.0)];
+    scene.lights = vec![Light::sun(120.0, 30.0, 50_000.0).into()];
     let [found, _] = lux(&scene, DVec3::new(2.0, 0.0, 2.0), DVec3::Y);
     assert!((found / 25_000.0 - 1.0).abs() < 1e-4, "{found}");
 }

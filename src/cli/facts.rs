@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use radiosity::colour::{LUMENS_PER_WATT, Rgb, luminance};
 use radiosity::mesh::Mesh;
-use radiosity::scene::{Light, Material};
+use radiosity::scene::{Light, Material, NamedLight};
 use radiosity::{Scene, Surfaces};
 use serde::Serialize;
 
@@ -49,6 +49,7 @@ struct MaterialFacts {
 
 #[derive(Debug, Serialize)]
 struct LightFacts {
+    name: String,
     kind: &'static str,
     /// In the unit.
     strength: [f64; 3],
@@ -117,18 +118,17 @@ impl MaterialFacts {
     }
 }
 
-impl From<&Light> for LightFacts {
-    fn from(light: &Light) -> Self {
+impl From<&NamedLight> for LightFacts {
+    fn from(NamedLight { name, light }: &NamedLight) -> Self {
         let watts = |lumens: f64| Rgb::splat(lumens / LUMENS_PER_WATT);
-        let (kind, strength, unit) = match light {
-            Light::Point { intensity, .. } => ("point", *intensity, "W/sr"),
-            Light::Spot { intensity, .. } => ("spot", *intensity, "W/sr"),
-            Light::Directional { irradiance, .. } => ("directional", *irradiance, "W/m²"),
-            Light::Sun { irradiance, .. } => ("sun", *irradiance, "W/m²"),
-            Light::Luminaire { photometry, .. } => ("luminaire", watts(photometry.flux()), "W"),
-            Light::Sky { irradiance, .. } => ("sky", *irradiance, "W/m²"),
+        let (strength, unit) = match light {
+            Light::Luminaire { photometry, .. } => (watts(photometry.flux()), "W"),
+            Light::Point { .. } | Light::Spot { .. } => {
+                (light.strength().unwrap_or_default(), "W/sr")
+            }
+            _ => (light.strength().unwrap_or_default(), "W/m²"),
         };
-        Self { kind, strength: strength.to_array(), unit }
+        Self { name: name.clone(), kind: light.kind(), strength: strength.to_array(), unit }
     }
 }
 
@@ -158,8 +158,13 @@ impl Display for Facts {
             writeln!(f, "  {name}: {} W, {flux:.4} lm", triple(*power))?;
         }
         for light in &self.lights {
-            let LightFacts { kind, strength, unit } = light;
-            writeln!(f, "  {kind} light: {} {unit}", triple(*strength))?;
+            let LightFacts { name, kind, strength, unit } = light;
+            let kind = if name == kind {
+                format!("{kind} light")
+            } else {
+                format!("{kind} light \"{name}\"")
+            };
+            writeln!(f, "  {kind}: {} {unit}", triple(*strength))?;
         }
         write!(f, "cameras    {}", self.cameras.len())?;
         for (number, camera) in self.cameras.iter().enumerate() {

@@ -24,6 +24,8 @@ pub(crate) struct Timing {
 #[derive(Debug)]
 pub(crate) struct Meter {
     quiet: bool,
+    /// Whether more is told than most want to know.
+    verbose: bool,
     /// Tells of every tenth of a phase where there is no bar.
     tenths: bool,
     on_terminal: bool,
@@ -43,6 +45,7 @@ impl Meter {
     pub(crate) fn new(options: &TalkOptions) -> Self {
         Self {
             quiet: options.quiet,
+            verbose: options.verbose > 0,
             tenths: options.verbose > 1,
             on_terminal: std::io::stderr().is_terminal(),
             current: None,
@@ -58,6 +61,13 @@ impl Meter {
         match &self.current {
             Some(current) => current.bar.suspend(|| console::tell(line)),
             None => console::tell(line),
+        }
+    }
+
+    /// A line for those who asked for more.
+    pub(crate) fn explain(&self, line: &str) {
+        if self.verbose {
+            self.tell(line);
         }
     }
 

@@ -12,11 +12,13 @@ mod form_factors;
 mod grid;
 mod info;
 mod interrupt;
+mod lighting;
 mod meter;
 mod options;
 mod outputs;
 mod page;
 mod record;
+mod relight;
 mod render;
 mod report;
 mod solve;
@@ -41,6 +43,7 @@ const EXAMPLES: &str = "\
 Examples:
   radiosity solve scenes/cornell-box.obj -o cornell.glb --image cornell.png
   radiosity render cornell.glb -o mesh.png --view wireframe
+  radiosity relight office.glb --light 'panel=50%' -o dim.glb
   radiosity compare scenes/cornell-box.obj --csv runs.csv
   radiosity form-factors scenes/furnace.obj --patch-size 1 -o F.json
   radiosity info scenes/office.obj
@@ -51,6 +54,7 @@ Examples:
 enum Command {
     Solve(Box<solve::Solve>),
     Render(render::Render),
+    Relight(relight::Relight),
     Compare(Box<compare::Compare>),
     FormFactors(form_factors::FormFactors),
     Info(info::Info),
@@ -80,6 +84,7 @@ impl Command {
         match self {
             Self::Solve(solve) => solve.run(),
             Self::Render(render) => render.run(),
+            Self::Relight(relight) => relight.run(),
             Self::Compare(compare) => compare.run(),
             Self::FormFactors(form_factors) => form_factors.run(),
             Self::Info(info) => info.run(),

@@ -4,13 +4,14 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::Args;
-use radiosity::export;
 use radiosity::render::{self, Subject};
+use radiosity::tone::Exposure;
+use radiosity::{TriMesh, export};
 use serde_json::json;
 
 use super::failure::Failure;
 use super::meter::Meter;
-use super::options::{PictureOptions, ReportOptions, display};
+use super::options::{CameraChoice, PictureOptions, ReportOptions, display};
 use super::record::{CameraRecord, cameras};
 use super::{console, outputs};
 
@@ -44,7 +45,7 @@ Examples:
 impl Render {
     pub(crate) fn run(self) -> Result<(), Failure> {
         outputs::check(&self.path, &[], &self.output, &[])?;
-        let views = self.picture.views(&self.output)?;
+        self.picture.views(&self.output)?;
         self.picture.check_for_file()?;
         self.report.talk.use_threads()?;
         let mut meter = Meter::new(&self.report.talk);
@@ -54,25 +55,10 @@ impl Render {
         if !stamp.finished {
             meter.tell("the solution was stopped before it was done");
         }
-        meter.begin("picture");
-        let camera = self.picture.camera(&choice, &mesh);
-        if self.report.talk.verbose > 0 {
-            meter.tell(&format!("camera {}", CameraRecord::from(&camera)));
-        }
-        let display = display(&mesh, self.picture.exposure.unwrap_or(stamp.exposure));
-        let subject = Subject { mesh: &mesh, solved: None };
-        for (view, paths) in views {
-            let picture = self.picture.picture(view, subject, &camera, |done| {
-                meter.advance("picture", done);
-                ControlFlow::Continue(())
-            });
-            for path in paths {
-                render::save(&picture, path, &display)?;
-            }
-        }
+        let exposure = self.picture.exposure.unwrap_or(stamp.exposure);
+        let camera = draw(&mesh, (&self.picture, &self.output), (&choice, exposure), &mut meter)?;
         let seconds = meter.into_timings();
         if self.report.json {
-            let camera = CameraRecord::from(&camera);
             let written = &self.output;
             console::print_json(
                 &json!({ "camera": camera, "written": written, "seconds": seconds }),
@@ -84,4 +70,29 @@ impl Render {
         }
         Ok(())
     }
+}
+
+/// Makes pictures of a mesh that was read from a file, and returns from where.
+pub(crate) fn draw(
+    mesh: &TriMesh,
+    (options, paths): (&PictureOptions, &[PathBuf]),
+    (choice, exposure): (&CameraChoice, Exposure),
+    meter: &mut Meter,
+) -> Result<CameraRecord, Failure> {
+    meter.begin("picture");
+    let camera = options.camera(choice, mesh);
+    let record = CameraRecord::from(&camera);
+    meter.explain(&format!("camera {record}"));
+    let display = display(mesh, exposure);
+    let subject = Subject { mesh, solved: None };
+    for (view, paths) in options.views(paths)? {
+        let picture = options.picture(view, subject, &camera, |done| {
+            meter.advance("picture", done);
+            ControlFlow::Continue(())
+        });
+        for path in paths {
+            render::save(&picture, path, &display)?;
+        }
+    }
+    Ok(record)
 }

@@ -9,14 +9,13 @@ use radiosity::mesh::Direct;
 use radiosity::render::{self, Solved, Subject};
 use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
-use radiosity::{
-    Error, Plan, Scene, Settings, Solution, Surfaces, reconstruct, solve_with, surfaces_of,
-};
+use radiosity::{Error, Scene, Settings, Solution, Surfaces, surfaces_of};
 
 use super::estimate::Estimate;
 use super::failure::Failure;
 use super::grid::GridOptions;
 use super::interrupt::Interrupt;
+use super::lighting::{Lighting, Lit, RelightOptions};
 use super::meter::Meter;
 use super::options::{
     AccuracyOptions, CameraChoice, CheckpointOptions, HINT, LimitOptions, PictureOptions,
@@ -57,6 +56,9 @@ pub(crate) struct Solve {
     history: Option<PathBuf>,
 
     #[command(flatten)]
+    relight: RelightOptions,
+
+    #[command(flatten)]
     grid: GridOptions,
 
     #[command(flatten)]
@@ -92,6 +94,7 @@ Examples:
   radiosity solve kitchen.obj --image final.png --image mesh.png --view light,reason --final-gather
   radiosity solve scenes/office.obj --quality draft --html office.html --snapshots 1,2,24,100
   radiosity solve scenes/bare-room.obj --emit 'lamp*=800lm' --sky cie-overcast --image lit.png
+  radiosity solve scenes/two-rooms.obj --relightable -o rooms.glb
   radiosity solve hall.glb -o lit.glb --quality high --checkpoint hall.work --resume
   radiosity solve room.obj --ies spot.ies@2,2.6,3 --grid 0.75,0.5 --grid-csv desk.csv
   radiosity solve scenes/blocker.obj --uniform 0.1 --image uniform.png --eye 1,2,3 --target 0,0,0";
@@ -113,11 +116,16 @@ impl Solve {
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
         settings.validate_for(surfaces.area(), surfaces.extent)?;
         self.announce((&surfaces, &settings), &settings_record, &meter);
-        let (solution, stages) = self.light(&surfaces, &settings, &interrupt, &mut meter)?;
+        let lighting = Lighting {
+            surfaces: &surfaces,
+            settings: &settings,
+            checkpoint: &self.checkpoint,
+            relight: &self.relight,
+            stages: &self.page.stages(),
+        };
+        let Lit { solution, stages, mesh } = lighting.run(&interrupt, &mut meter)?;
         refuse_darkness(&solution)?;
         tell_if_full(&solution, &meter);
-        meter.begin("triangles");
-        let mesh = reconstruct(&surfaces, &solution);
 
         let exposure = self.picture.exposure.unwrap_or_default();
         let stamp = Stamp {
@@ -157,33 +165,6 @@ impl Solve {
         })
     }
 
-    /// The solution, and its stages.
-    fn light(
-        &self,
-        surfaces: &Surfaces,
-        settings: &Settings,
-        interrupt: &Interrupt,
-        meter: &mut Meter,
-    ) -> Result<(Solution, Vec<Solution>), Failure> {
-        let (mut checkpoint, goes_on) = self.checkpoint.open(surfaces, settings)?;
-        if goes_on {
-            meter.tell("going on from the checkpoint");
-        }
-        let stages = self.page.stages();
-        let plan = Plan { stages: &stages, checkpoint: Some(&mut checkpoint) };
-        let solutions = solve_with(surfaces, settings, plan, |progress| {
-            meter.follow(progress);
-            interrupt.flow()
-        });
-        if solutions.is_err() && !goes_on {
-            self.checkpoint.remove();
-        }
-        if let Some(failure) = checkpoint.failure() {
-            meter.tell(&format!("note: the checkpoint is of no use any more: {failure}"));
-        }
-        Ok(solutions?)
-    }
-
     /// What is asked for, and what to expect of it.
     fn announce(
         &self,
@@ -191,9 +172,7 @@ impl Solve {
         record: &SettingsRecord,
         meter: &Meter,
     ) {
-        if self.report.talk.verbose > 0 {
-            meter.tell(&record.to_string());
-        }
+        meter.explain(&record.to_string());
         meter.tell(&Estimate::new(surfaces, settings).to_string());
     }
 
@@ -269,9 +248,7 @@ impl Solve {
         }
         meter.begin("picture");
         let camera = self.picture.camera(camera, subject.mesh);
-        if self.report.talk.verbose > 0 {
-            meter.tell(&format!("camera {}", CameraRecord::from(&camera)));
-        }
+        meter.explain(&format!("camera {}", CameraRecord::from(&camera)));
         let display = display(subject.mesh, exposure);
         for (view, paths) in self.picture.views(&self.image)? {
             let picture = self.picture.picture(view, subject, &camera, |done| {

@@ -16,7 +16,7 @@ use glam::DVec3;
 use crate::colour::Rgb;
 use crate::form_factor::contour::{point_to_polygon, point_to_polygon_above};
 use crate::mesh::{Direct, Mesh};
-use crate::scene::Light;
+use crate::scene::{Light, NamedLight};
 use crate::surface::Surfaces;
 use crate::surface::cut::{Cuts, convex_pieces};
 use crate::visibility::{Facet, HalfSpace, Occluders, Pieces, Polygon};
@@ -107,7 +107,7 @@ impl Lamps {
             }
         }
         let mut points = Vec::new();
-        for light in &surfaces.lights {
+        for NamedLight { light, .. } in &surfaces.lights {
             match *light {
                 Light::Sky { sky, irradiance } => {
                     areas.extend(sky::lamps(surfaces, sky, irradiance));

@@ -5,6 +5,8 @@
 //! leaves that share a vertex of the mesh, which those on two sides of a contact line do not.
 
 mod angles;
+mod by_light;
+mod dimming;
 mod fit;
 mod normal;
 mod sheet;
@@ -20,6 +22,8 @@ use crate::solver::Solution;
 use crate::surface::{Surfaces, Weld};
 
 pub use angles::Angles;
+pub use by_light::{LightShare, reconstruct_by_light};
+pub use dimming::Dimming;
 pub use trimesh::{Irradiance, Part, TriMesh};
 
 use sheet::Sheet;

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use glam::{DVec3, Vec2, Vec3};
 
+use super::LightShare;
 use crate::colour::Rgb;
 use crate::mesh::ElementId;
 use crate::scene::Texture;
@@ -28,6 +29,8 @@ pub struct TriMesh {
     pub parts: Vec<Part>,
     /// Pictures that parts refer to.
     pub textures: Vec<Texture>,
+    /// The light of each group of lights, if it was kept apart: then radiosity is their sum.
+    pub lights: Vec<LightShare>,
     /// What arrives at each vertex; empty in a mesh read from a file.
     pub irradiance: Vec<Irradiance>,
     /// The leaf of the solution's mesh that each triangle is part of; empty in a mesh read from a file.

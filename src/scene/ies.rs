@@ -8,7 +8,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::photometry::Photometry;
-use super::{Light, Scene};
+use super::{Light, NamedLight, Scene};
 use crate::error::{Error, Result};
 
 /// Angles along one axis, at most.
@@ -34,7 +34,9 @@ impl Scene {
             parse(&text).map_err(|(line, message)| Error::at_line(path, line, message))?;
         self.notes.extend(note.map(|note| format!("{}: {note}", path.display())));
         let (photometry, turn) = (Arc::new(photometry), rotation.to_radians());
-        self.lights.push(Light::Luminaire { position, photometry, turn });
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let light = Light::Luminaire { position, photometry, turn };
+        self.lights.push(NamedLight { name, light });
         Ok(())
     }
 }

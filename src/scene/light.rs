@@ -67,6 +67,22 @@ pub enum Light {
     },
 }
 
+/// A light with a name, by which it can be dimmed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedLight {
+    /// As in the file, or what kind of light it is; several lights may share it.
+    pub name: String,
+    /// What it sends out.
+    pub light: Light,
+}
+
+impl From<Light> for NamedLight {
+    /// Named after its kind.
+    fn from(light: Light) -> Self {
+        Self { name: light.kind().to_owned(), light }
+    }
+}
+
 /// How the radiance of a sky depends on the elevation γ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sky {
@@ -111,6 +127,42 @@ impl Light {
             direction: -towards.normalize_or(DVec3::Y),
             irradiance: Rgb::splat(lux / LUMENS_PER_WATT),
         }
+    }
+
+    /// What kind of light it is, in a word.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Point { .. } => "point",
+            Self::Spot { .. } => "spot",
+            Self::Directional { .. } => "directional",
+            Self::Luminaire { .. } => "luminaire",
+            Self::Sun { .. } => "sun",
+            Self::Sky { .. } => "sky",
+        }
+    }
+
+    /// Radiant intensity, W/sr, or irradiance, W/m²; none of a luminaire, whose strength is its photometry.
+    pub fn strength(&self) -> Option<Rgb> {
+        match self {
+            Self::Point { intensity, .. } | Self::Spot { intensity, .. } => Some(*intensity),
+            Self::Directional { irradiance, .. }
+            | Self::Sun { irradiance, .. }
+            | Self::Sky { irradiance, .. } => Some(*irradiance),
+            Self::Luminaire { .. } => None,
+        }
+    }
+
+    /// The same light with another [`strength`](Self::strength), if it has one.
+    #[must_use]
+    pub fn with_strength(mut self, strength: Rgb) -> Self {
+        match &mut self {
+            Self::Point { intensity, .. } | Self::Spot { intensity, .. } => *intensity = strength,
+            Self::Directional { irradiance, .. }
+            | Self::Sun { irradiance, .. }
+            | Self::Sky { irradiance, .. } => *irradiance = strength,
+            Self::Luminaire { .. } => (),
+        }
+        self
     }
 
     /// A white sky with this illuminance of an open horizontal plane, lx.

@@ -30,9 +30,10 @@ use crate::colour::Rgb;
 
 pub use adding::{Amount, AreaLight};
 pub use camera::Camera;
-pub use light::{DESIGN_SKY, Light, Sky, clear_sun};
+pub use light::{DESIGN_SKY, Light, NamedLight, Sky, clear_sun};
 pub use load::load;
 pub use material::{MAX_REFLECTANCE, Material, Texture};
+pub(crate) use names::matches;
 pub use photometry::Photometry;
 pub(crate) use polygon::area_vector;
 pub use sides::{Sides, settle_sides};
@@ -52,7 +53,7 @@ pub struct Scene {
     /// Pictures that materials refer to.
     pub textures: Vec<Texture>,
     /// Lights without a surface.
-    pub lights: Vec<Light>,
+    pub lights: Vec<NamedLight>,
     /// Views the file offers, in its order.
     pub cameras: Vec<Camera>,
     /// Repairs and warnings, a line each, for the user to read.

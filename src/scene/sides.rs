@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::sight::Sight;
-use super::{Face, Light, Scene};
+use super::{Face, Light, NamedLight, Scene};
 use crate::colour::luminance;
 
 /// Which sides of faces reflect and emit.
@@ -170,7 +170,7 @@ fn rays_of_faces(scene: &Scene, sight: &Sight, count: usize) -> (Vec<Ray>, Vec<R
 fn rays_of_lights(scene: &Scene, count: usize) -> Vec<Ray> {
     let mut rays = Vec::new();
     let each = count / scene.lights.len().max(1);
-    for light in &scene.lights {
+    for NamedLight { light, .. } in &scene.lights {
         let (place, axis, angle) = match *light {
             Light::Point { position, .. } => (position, DVec3::Y, std::f64::consts::PI),
             Light::Spot { position, direction, outer_angle, .. } => {

@@ -26,6 +26,12 @@ pub(super) struct World<'a> {
     pub(super) light: &'a PatchLight,
 }
 
+impl<'a> World<'a> {
+    pub(super) fn new(surfaces: &'a Surfaces, light: &'a PatchLight) -> Self {
+        Self { surfaces, occluders: light.occluders(), light }
+    }
+}
+
 /// Evaluates direct light at all vertices that lack it.
 pub(super) fn light(world: World<'_>, mesh: &mut Mesh, observer: &mut Observer<'_>) {
     let dark: Vec<usize> =

@@ -4,6 +4,7 @@
 //! refines the mesh. Reflected light is exchanged between patches, coarsely. What arrives of it at
 //! the vertices is then gathered, and refines the mesh where it varies.
 
+mod by_light;
 mod checkpoint;
 mod direct_pass;
 mod element_light;
@@ -33,6 +34,7 @@ use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
 
+pub use by_light::solve_by_light;
 pub use checkpoint::Checkpoint;
 pub use element_light::ElementLight;
 pub use energy::Energy;
@@ -172,25 +174,24 @@ pub fn solve_with(
     let mut observer = Observer { observe: &mut observe, flow, checkpoint };
     let mut mesh = Mesh::new(surfaces, settings);
     check_reflectances(surfaces, &mesh)?;
-    let lamps = Lamps::new(surfaces, &mesh).seen_by(settings.shadow_rays);
-    if lamps.is_empty() {
-        return Err(Error::Scene(DARK.to_owned()));
-    }
-    let light = PatchLight::new(lamps, Occluders::new(surfaces), &mesh);
-    let world = World { surfaces, occluders: light.occluders(), light: &light };
+    let light = lamps_on(surfaces, settings, &mesh)?;
+    let world = World::new(surfaces, &light);
 
     direct_pass::refine(world, settings, &mut mesh, &mut observer);
     direct_pass::light_leaves(world, &mut mesh, &mut observer);
     let stages = stages::stages(world, settings, (&mesh, stages), &mut observer)?;
     let mut exchange = Exchange::new(world, settings, &mesh, &mut observer)?;
-    let (gathered, gathering) = if exchange.stop == Stop::Converged {
-        gather(world, settings, (&mut mesh, &mut exchange), &mut observer)
-    } else {
-        exchange.spread(&mut mesh);
-        (0, 0)
-    };
-    let work = Work { gathering, ..Work::new(world.light.lamps(), exchange.factors) };
+    let (gathered, work) = reflect(world, settings, (&mut mesh, &mut exchange), &mut observer);
     Ok((exchange.solution(mesh, gathered, work), stages))
+}
+
+/// All light straight from emitters on the patches of a mesh; there must be some.
+fn lamps_on(surfaces: &Surfaces, settings: &Settings, mesh: &Mesh) -> Result<PatchLight> {
+    let lamps = Lamps::new(surfaces, mesh).seen_by(settings.shadow_rays);
+    if lamps.is_empty() {
+        return Err(Error::Scene(DARK.to_owned()));
+    }
+    Ok(PatchLight::new(lamps, Occluders::new(surfaces), mesh))
 }
 
 /// Whether light dies away: loading a file sees to it, a scene made in code may not.
@@ -200,6 +201,23 @@ fn check_reflectances(surfaces: &Surfaces, mesh: &Mesh) -> Result<()> {
         let name = format_args!("material \"{}\"", surfaces.materials[material].name);
         relaxation::check_reflectance(patch.reflectance, name)
     })
+}
+
+/// Brings reflected light to the vertices: gathered, if all has been exchanged. Returns how often light was
+/// gathered, and what all of it took.
+fn reflect(
+    world: World<'_>,
+    settings: &Settings,
+    (mesh, exchange): (&mut Mesh, &mut Exchange),
+    observer: &mut Observer<'_>,
+) -> (usize, Work) {
+    let (gathered, gathering) = if exchange.stop == Stop::Converged {
+        gather(world, settings, (mesh, exchange), observer)
+    } else {
+        exchange.spread(mesh);
+        (0, 0)
+    };
+    (gathered, Work { gathering, ..Work::new(world.light.lamps(), exchange.factors) })
 }
 
 /// Indirect light at vertices, the mesh refined to it. Returns how often light was gathered, and how many

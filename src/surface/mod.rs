@@ -3,6 +3,7 @@
 mod boxes;
 mod contact;
 pub mod cut;
+mod light_group;
 mod merge;
 mod outliers;
 mod overlap;
@@ -14,8 +15,9 @@ mod weld;
 use glam::{DAffine2, DMat2, DVec2, DVec3};
 
 use crate::colour::Rgb;
-use crate::scene::{Light, Material, Scene, Texture};
+use crate::scene::{Material, NamedLight, Scene, Texture};
 
+pub use light_group::{LightGroup, StrengthUnit};
 pub use picture::mean_texture;
 pub use plane::Plane;
 pub use polygon::{Ring, Segment};
@@ -29,7 +31,7 @@ pub struct Surfaces {
     /// Names of the scene's objects.
     pub objects: Vec<String>,
     /// Lights without a surface.
-    pub lights: Vec<Light>,
+    pub lights: Vec<NamedLight>,
     /// The scene's materials.
     pub materials: Vec<Material>,
     /// The scene's textures.

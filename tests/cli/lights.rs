@@ -126,3 +126,38 @@ fn a_room_modelled_inside_out_is_turned_over_by_the_light_added_to_it() {
     let [right, turned] = [absorbed("room.obj"), absorbed("turned.obj")];
     assert!(right > 0.0 && (turned / right - 1.0).abs() < 0.01, "{turned} W and {right} W");
 }
+
+#[test]
+fn a_solved_file_is_relit_as_a_fresh_solution_would_be() {
+    use radiosity::export::load_solved;
+
+    let place = room();
+    let lit = |output: &'static str, panel: &'static str, point: &'static str| {
+        let lights = ["--emit", panel, "--point-light", point, "--relightable", "-o", output];
+        [&["solve", "room.obj", "--json"], &COARSE[..], &lights].concat()
+    };
+    place.run(&lit("old.glb", "panel=5", "1,1,1=800lm")).done();
+    place.run(&lit("fresh.glb", "panel=1,2,9", "1,1,1=200lm")).done();
+    let relight = ["relight", "old.glb", "--light", "panel=1,2,9", "--light", "po*=25%"];
+    let more = ["-o", "new.glb", "--image", "new.png", "--size", "80x60", "--json"];
+    let json = place.run(&[&relight[..], &more].concat()).done().json();
+    assert_eq!(json["lights"][1]["name"], "point");
+    assert!(place.path("new.png").exists());
+    let [(new, stamp), (fresh, _)] =
+        ["new.glb", "fresh.glb"].map(|name| load_solved(&place.path(name)).expect("it is whole"));
+    assert!(stamp.finished && new.lights.len() == 2 && new.lights[0].group.strength.z == 9.0);
+    let largest = fresh.radiosity.iter().map(|b| b.max_element()).fold(0.0, f64::max);
+    for (new, fresh) in new.radiosity.iter().zip(&fresh.radiosity) {
+        assert!((*new - *fresh).abs().max_element() < 1e-6 * largest, "{new} {fresh}");
+    }
+
+    let listed = place.run(&["relight", "old.glb"]).done();
+    assert!(listed.stdout.contains("light \"panel\": 5,5,5 W/(m² sr)"), "{}", listed.stdout);
+    place
+        .run(&["relight", "old.glb", "--light", "pan=0"])
+        .refused(2, &["pan", "\"panel\", \"point\""]);
+    place.run(&["relight", "old.glb", "--light", "panel=5lx"]).refused(2, &["another unit"]);
+    place.run(&["relight", "old.glb", "--light", "panel"]).refused(2, &["NAME=AMOUNT"]);
+    place.run(&solve(&["--emit", "panel=5"])).done();
+    place.run(&["relight", "a.glb", "--light", "panel=off"]).refused(2, &["--relightable"]);
+}

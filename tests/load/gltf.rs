@@ -192,14 +192,15 @@ fn lights_come_in_watts_and_follow_their_nodes() {
     let at = DVec3::new(1.0, 2.0, 3.0);
     let point =
         Light::Point { position: at, intensity: DVec3::new(1.0, 0.5, 0.0), range: Some(4.0) };
-    assert_eq!(scene.lights[0], point);
-    let Light::Spot { direction, intensity, inner_angle, outer_angle, .. } = scene.lights[1] else {
+    assert_eq!(scene.lights[0].light, point);
+    let Light::Spot { direction, intensity, inner_angle, outer_angle, .. } = scene.lights[1].light
+    else {
         panic!("{:?}", scene.lights[1]);
     };
     assert!((direction - DVec3::NEG_Y).length() < 1e-12, "{direction}");
     assert_eq!(intensity, DVec3::splat(2.0));
     assert!((inner_angle - 0.1).abs() < 1e-6 && (outer_angle - 0.2).abs() < 1e-6);
-    let Light::Directional { irradiance, .. } = scene.lights[2] else { panic!() };
+    let Light::Directional { irradiance, .. } = scene.lights[2].light else { panic!() };
     assert_eq!(irradiance, DVec3::splat(100.0));
     assert!(scene.is_lit());
 }

@@ -18,7 +18,7 @@ fn added(text: &str) -> Result<Scene, String> {
 }
 
 fn photometry(text: &str) -> Photometry {
-    match added(text).expect("the file is right").lights.remove(0) {
+    match added(text).expect("the file is right").lights.remove(0).light {
         Light::Luminaire { photometry, .. } => Photometry::clone(&photometry),
         light => panic!("{light:?}"),
     }
@@ -149,7 +149,7 @@ proptest! {
         let end = EVEN.len().min(at + cut);
         let strange = format!("{}{text}{}", &EVEN[..at], &EVEN[end..]);
         if let Ok(mut scene) = added(&strange)
-            && let Light::Luminaire { photometry, .. } = scene.lights.remove(0)
+            && let Light::Luminaire { photometry, .. } = scene.lights.remove(0).light
         {
             let candela = photometry.candela(DVec3::new(0.48, -0.6, 0.64));
             prop_assert!(candela.is_finite() && candela >= 0.0 && photometry.flux().is_finite());

@@ -143,7 +143,7 @@ fn assert_sound(scene: &Scene) {
         assert_eq!(texture.texels.len(), texture.width as usize * texture.height as usize);
         assert!(texture.texels.iter().flatten().all(|x| x.is_finite() && *x >= 0.0));
     }
-    scene.lights.iter().for_each(assert_sound_light);
+    scene.lights.iter().for_each(|named| assert_sound_light(&named.light));
     for camera in &scene.cameras {
         assert!(camera.eye.is_finite() && camera.target.is_finite() && camera.up.is_finite());
         assert!((camera.target - camera.eye).cross(camera.up).length() > 0.0);

@@ -1,10 +1,11 @@
 //! Work that is kept, and gone on with.
 
+use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use radiosity::solver::Checkpoint;
-use radiosity::{Error, Result, Settings, Surfaces};
+use radiosity::{Error, Result, Settings};
 
 use crate::cli::outputs;
 
@@ -39,16 +40,16 @@ impl CheckpointOptions {
     /// The file, and whether it holds work of an earlier run.
     pub(crate) fn open(
         &self,
-        surfaces: &Surfaces,
+        subject: &impl Debug,
         settings: &Settings,
     ) -> Result<(Checkpoint, bool)> {
         match &self.checkpoint {
             None => Ok((Checkpoint::default(), false)),
             Some(path) if self.resume && path.exists() => {
-                Checkpoint::resume(path, surfaces, settings).map(|checkpoint| (checkpoint, true))
+                Checkpoint::resume(path, subject, settings).map(|checkpoint| (checkpoint, true))
             }
             Some(path) => {
-                Checkpoint::create(path, surfaces, settings).map(|checkpoint| (checkpoint, false))
+                Checkpoint::create(path, subject, settings).map(|checkpoint| (checkpoint, false))
             }
         }
     }

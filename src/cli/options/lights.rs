@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use glam::DVec3;
 use radiosity::colour::{LUMENS_PER_WATT, Rgb};
-use radiosity::scene::{Amount, AreaLight, DESIGN_SKY, Light, Sky, clear_sun};
+use radiosity::scene::{Amount, AreaLight, DESIGN_SKY, Light, NamedLight, Sky, clear_sun};
 use radiosity::{Error, Scene};
 
 use super::values::{number, vector};
@@ -92,7 +92,7 @@ impl LightOptions {
             scene.add_luminaire(file, *position, *rotation)?;
         }
         let lights = self.point_light.iter().chain(&self.sun).chain(&self.sky);
-        scene.lights.extend(lights.cloned());
+        scene.lights.extend(lights.cloned().map(NamedLight::from));
         Ok(())
     }
 }

@@ -28,6 +28,10 @@ const RADIOSITY: &str = "RADIOSITY";
 /// Attribute with the mean of the picture under a vertex, only on textured primitives.
 const TEXTURE_MEAN: &str = "TEXTURE_MEAN";
 
+/// Attributes with the radiosity by each of the lights in `asset.extras`, at a strength of 1, W/m² per channel; a
+/// number follows.
+const LIGHT: &str = "LIGHT_";
+
 /// Writes a mesh that has triangles as GLB.
 pub(crate) fn write(look: &Look, out: &mut impl Write) -> io::Result<()> {
     let mut document = Document::default();
@@ -77,6 +81,11 @@ fn primitive(document: &mut Document, look: &Look, group: &Group) -> Primitive {
         (Semantic::Colors(0), document.colours(light)),
         (Semantic::Extras(RADIOSITY.to_owned()), document.vectors(&radiosity)),
     ]);
+    for (number, light) in mesh.lights.iter().enumerate() {
+        let radiosity: Vec<_> = vertices().map(|v| singles(light.radiosity[v])).collect();
+        let name = format!("{LIGHT}{number}");
+        attributes.insert(Semantic::Extras(name), document.vectors(&radiosity));
+    }
     if group.texture.is_some() {
         let uvs: Vec<_> = vertices().map(|v| mesh.uvs[v].to_array()).collect();
         let means: Vec<_> = vertices().map(|v| singles(mesh.texture_mean[v])).collect();

@@ -11,12 +11,13 @@ use gltf_json::{Node, Root};
 
 use super::accessors::Arrays;
 use super::record::Record;
-use super::{RADIOSITY, TEXTURE_MEAN};
+use super::{LIGHT, RADIOSITY, TEXTURE_MEAN};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
 use crate::export::Stamp;
-use crate::reconstruct::{Part, TriMesh};
+use crate::reconstruct::{LightShare, Part, TriMesh};
 use crate::scene::{Texture, decode};
+use crate::surface::LightGroup;
 
 const NO_RADIOSITY: &str = "carries no radiosity (attribute _RADIOSITY); `radiosity solve SCENE -o FILE.glb` makes such a file";
 
@@ -35,7 +36,11 @@ fn read(bytes: &[u8]) -> Outcome<(TriMesh, Stamp)> {
     let (json, binary) = chunks(bytes)?;
     let root = Root::from_slice(json).map_err(|error| format!("no valid glTF: {error}"))?;
     let arrays = Arrays { root: &root, binary };
-    let mut mesh = TriMesh::default();
+    let extras = root.asset.extras.as_ref();
+    let record = extras.and_then(|extras| serde_json::from_str::<Record>(extras.get()).ok());
+    let lights = record.iter().flat_map(|record| &record.lights);
+    let share = |group: &LightGroup| LightShare { group: group.clone(), radiosity: Vec::new() };
+    let mut mesh = TriMesh { lights: lights.map(share).collect(), ..TriMesh::default() };
     for primitive in root.meshes.iter().flat_map(|mesh| &mesh.primitives) {
         append(&mut mesh, &arrays, primitive)?;
     }
@@ -46,8 +51,6 @@ fn read(bytes: &[u8]) -> Outcome<(TriMesh, Stamp)> {
     if mesh.triangles.is_empty() {
         return Err("holds no triangles".to_owned());
     }
-    let extras = root.asset.extras.as_ref();
-    let record = extras.and_then(|extras| serde_json::from_str::<Record>(extras.get()).ok());
     Ok((mesh, record.map(Record::into_stamp).unwrap_or_default()))
 }
 
@@ -118,6 +121,14 @@ fn append_vertices(mesh: &mut TriMesh, arrays: &Arrays, primitive: &Primitive) -
     };
     if [normals.len(), radiosity.len(), uvs.len(), means.len()] != [count; 4] {
         return Err("a primitive's attributes differ in length".to_owned());
+    }
+    for (number, light) in mesh.lights.iter_mut().enumerate() {
+        let missing = || format!("a primitive has no _{LIGHT}{number}");
+        let values = doubles(extra(&format!("{LIGHT}{number}")).ok_or_else(missing)?)?;
+        if values.len() != count {
+            return Err("a primitive's attributes differ in length".to_owned());
+        }
+        light.radiosity.extend(values);
     }
     mesh.positions.extend(positions);
     mesh.normals.extend(normals);

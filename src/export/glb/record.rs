@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::export::Stamp;
 use crate::export::look::{Look, TONE_CURVE};
+use crate::surface::LightGroup;
 use crate::tone::{Exposure, exposure_value};
 
 /// The contents of `asset.extras`.
@@ -17,6 +18,9 @@ pub(super) struct Record {
     tone_curve: String,
     settings: serde_json::Value,
     finished: bool,
+    /// Lights whose radiosities are kept apart, as `_LIGHT_0` and so on, at a strength of 1.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) lights: Vec<LightGroup>,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -41,6 +45,7 @@ impl Record {
             tone_curve: TONE_CURVE.to_owned(),
             settings: look.stamp.settings.clone(),
             finished: look.stamp.finished,
+            lights: look.mesh.lights.iter().map(|light| light.group.clone()).collect(),
         }
     }
 

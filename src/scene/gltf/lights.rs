@@ -12,7 +12,7 @@ use super::Import;
 use crate::colour::LUMENS_PER_WATT;
 use crate::error::Result;
 use crate::scene::load::{MAX_RADIANCE, tamed};
-use crate::scene::{Camera, Light};
+use crate::scene::{Camera, Light, NamedLight};
 
 impl Import<'_> {
     /// Adds a perspective camera that looks along its node's -Z.
@@ -34,10 +34,11 @@ impl Import<'_> {
         self.scene.cameras.push(Camera { name, eye, target: eye + forward, up, vertical_fov });
     }
 
-    /// Adds a light that shines along its node's -Z; candela become W/sr, lux become W/m².
+    /// Adds a light that shines along its node's -Z, with its own name or the node's; candela become W/sr, lux become W/m².
     pub(super) fn add_light(
         &mut self,
         light: &khr_lights_punctual::Light,
+        node: &Node,
         transform: DMat4,
     ) -> Result<()> {
         let Checked::Valid(kind) = light.type_ else {
@@ -51,14 +52,17 @@ impl Import<'_> {
             return Ok(());
         };
         let range = light.range.map(f64::from).filter(|range| range.is_finite() && *range > 0.0);
-        self.scene.lights.push(match kind {
+        let named = light.name.clone().or_else(|| node.name.clone());
+        let light = match kind {
             Type::Directional => Light::Directional { direction, irradiance: intensity },
             Type::Point => Light::Point { position, intensity, range },
             Type::Spot => {
                 let (inner_angle, outer_angle) = cone(light);
                 Light::Spot { position, direction, intensity, inner_angle, outer_angle, range }
             }
-        });
+        };
+        let name = named.unwrap_or_else(|| light.kind().to_owned());
+        self.scene.lights.push(NamedLight { name, light });
         Ok(())
     }
 }

@@ -70,7 +70,7 @@ impl Import<'_> {
         if let Some(light) = lights {
             let light: &json::extensions::scene::khr_lights_punctual::Light =
                 self.file.get(light.light, "light")?;
-            self.add_light(light, transform)?;
+            self.add_light(light, node, transform)?;
         }
         Ok(())
     }

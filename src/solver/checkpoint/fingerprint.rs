@@ -1,16 +1,14 @@
-//! Whether two scenes are the same.
+//! Whether two things are the same.
 
-use std::fmt::{self, Write};
+use std::fmt::{self, Debug, Write};
 
 use sha2::{Digest, Sha256};
 
-use crate::surface::Surfaces;
-
-/// SHA-256 of all that surfaces are; numbers count to their last bit.
-pub(super) fn of(surfaces: &Surfaces) -> [u8; 32] {
+/// SHA-256 of all that something says of itself; numbers count to their last bit.
+pub(super) fn of(subject: &impl Debug) -> [u8; 32] {
     let mut digest = Digesting(Sha256::new());
     // Digesting never fails, and neither do the derived descriptions.
-    let _ = write!(digest, "{surfaces:?}");
+    let _ = write!(digest, "{subject:?}");
     digest.0.finalize().into()
 }
 

@@ -9,6 +9,7 @@
 mod fingerprint;
 mod tape;
 
+use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 use std::slice::Chunks;
 use std::time::{Duration, Instant};
@@ -19,7 +20,6 @@ use serde::{Deserialize, Serialize};
 use crate::error::{Error, Result};
 use crate::file;
 use crate::settings::Settings;
-use crate::surface::Surfaces;
 
 use tape::Tape;
 
@@ -68,28 +68,28 @@ impl Checkpoint {
         file::probe(path)
     }
 
-    /// A new file for a solution of `surfaces`.
+    /// A new file for a solution of a `subject`: surfaces, or those that [`solve_by_light`](super::solve_by_light) takes.
     ///
     /// # Errors
     /// When there is a file at `path` already, or none can be made there.
-    pub fn create(path: &Path, surfaces: &Surfaces, settings: &Settings) -> Result<Self> {
-        let header = Header::new(surfaces, settings);
+    pub fn create(path: &Path, subject: &impl Debug, settings: &Settings) -> Result<Self> {
+        let header = Header::new(subject, settings);
         let tape = Tape::create(path, &header)?;
         Ok(Self::of(path, tape, &header))
     }
 
-    /// The file of a solution of the same surfaces with the same settings, to go on where that was left.
+    /// The file of a solution of the same subject with the same settings, to go on where that was left.
     ///
     /// Of [`Settings::max_elements`], what it was then holds.
     ///
     /// # Errors
     /// When there is none at `path`, or it is of another scene, other settings or another version.
-    pub fn resume(path: &Path, surfaces: &Surfaces, settings: &Settings) -> Result<Self> {
+    pub fn resume(path: &Path, subject: &impl Debug, settings: &Settings) -> Result<Self> {
         let mut tape = Tape::open(path).map_err(Error::io(path))?;
         let found: Header = tape
             .next()
             .ok_or_else(|| Error::format(path, "is not the checkpoint of a solution"))?;
-        found.compare(&Header::new(surfaces, settings)).map_err(|m| Error::format(path, m))?;
+        found.compare(&Header::new(subject, settings)).map_err(|m| Error::format(path, m))?;
         Ok(Self::of(path, tape, &found))
     }
 
@@ -156,10 +156,10 @@ impl Checkpoint {
 }
 
 impl Header {
-    fn new(surfaces: &Surfaces, settings: &Settings) -> Self {
+    fn new(subject: &impl Debug, settings: &Settings) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            scene: fingerprint::of(surfaces),
+            scene: fingerprint::of(subject),
             settings: format!("{:?}", Settings { max_elements: None, ..settings.clone() }),
             max_elements: settings.max_elements,
         }

@@ -1,0 +1,123 @@
+//! The work of `radiosity solve` itself: with its checkpoint, and with lights kept apart if they are to be.
+
+use clap::Args;
+use radiosity::colour::Rgb;
+use radiosity::reconstruct::reconstruct_by_light;
+use radiosity::solver::{Checkpoint, Progress};
+use radiosity::surface::LightGroup;
+use radiosity::{
+    Error, Plan, Result, Settings, Solution, Surfaces, TriMesh, reconstruct, solve_by_light,
+    solve_with,
+};
+
+use super::interrupt::Interrupt;
+use super::meter::Meter;
+use super::options::CheckpointOptions;
+
+/// Most lights that are kept apart: each takes a solution of its own.
+const MOST_LIGHTS: usize = 32;
+
+/// Whether lights can be dimmed afterwards.
+#[derive(Debug, Args)]
+pub(crate) struct RelightOptions {
+    /// Keep lights apart, by the names of materials and lights, so that `radiosity relight` can dim and colour them
+    ///
+    /// Each is solved for by itself, on a mesh fine enough for all. `--relightable='desk*,spot*'` keeps those that match
+    /// a pattern together; all others go by their names.
+    #[arg(long, value_name = "PATTERN,...", num_args = 0..=1, require_equals = true, value_delimiter = ',')]
+    #[arg(help_heading = "Writing", conflicts_with_all = ["history", "snapshots"])]
+    relightable: Option<Vec<String>>,
+}
+
+/// What is to be lit, and how.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lighting<'a> {
+    pub(crate) surfaces: &'a Surfaces,
+    pub(crate) settings: &'a Settings,
+    pub(crate) checkpoint: &'a CheckpointOptions,
+    pub(crate) relight: &'a RelightOptions,
+    pub(crate) stages: &'a [usize],
+}
+
+/// What came of it.
+#[derive(Debug)]
+pub(crate) struct Lit {
+    pub(crate) solution: Solution,
+    pub(crate) stages: Vec<Solution>,
+    pub(crate) mesh: TriMesh,
+}
+
+impl Lighting<'_> {
+    pub(crate) fn run(self, interrupt: &Interrupt, meter: &mut Meter) -> Result<Lit> {
+        match &self.relight.relightable {
+            None => self.together(interrupt, meter),
+            Some(patterns) => self.apart(patterns, interrupt, meter),
+        }
+    }
+
+    fn together(self, interrupt: &Interrupt, meter: &mut Meter) -> Result<Lit> {
+        let Self { surfaces, settings, stages, .. } = self;
+        let (solution, stages) = self.kept(surfaces, interrupt, meter, |checkpoint, observe| {
+            let plan = Plan { stages, checkpoint: Some(checkpoint) };
+            solve_with(surfaces, settings, plan, observe)
+        })?;
+        meter.begin("triangles");
+        let mesh = reconstruct(surfaces, &solution);
+        Ok(Lit { solution, stages, mesh })
+    }
+
+    fn apart(self, patterns: &[String], interrupt: &Interrupt, meter: &mut Meter) -> Result<Lit> {
+        let Self { surfaces, settings, .. } = self;
+        let groups = surfaces.light_groups(patterns);
+        check_count(groups.len())?;
+        let scene = |group: &LightGroup| (surfaces.lit_by(group, patterns), group.strength);
+        let scenes: Vec<(Surfaces, Rgb)> = groups.iter().map(scene).collect();
+        let (solution, parts) = self.kept(&scenes, interrupt, meter, |checkpoint, observe| {
+            solve_by_light(&scenes, settings, checkpoint, observe)
+        })?;
+        meter.begin("triangles");
+        let parts = groups.into_iter().zip(scenes).zip(parts);
+        let parts = parts.map(|((group, (surfaces, _)), part)| (group, surfaces, part));
+        let mesh = reconstruct_by_light(surfaces, &solution, parts);
+        Ok(Lit { solution, stages: Vec::new(), mesh })
+    }
+
+    /// Does `work` on a `subject` with its checkpoint.
+    fn kept<R>(
+        self,
+        subject: &impl std::fmt::Debug,
+        interrupt: &Interrupt,
+        meter: &mut Meter,
+        work: impl FnOnce(
+            &mut Checkpoint,
+            &mut dyn FnMut(&Progress) -> std::ops::ControlFlow<()>,
+        ) -> Result<R>,
+    ) -> Result<R> {
+        let (mut checkpoint, goes_on) = self.checkpoint.open(subject, self.settings)?;
+        if goes_on {
+            meter.tell("going on from the checkpoint");
+        }
+        let done = work(&mut checkpoint, &mut |progress| {
+            meter.follow(progress);
+            interrupt.flow()
+        });
+        if done.is_err() && !goes_on {
+            self.checkpoint.remove();
+        }
+        if let Some(failure) = checkpoint.failure() {
+            meter.tell(&format!("note: the checkpoint is of no use any more: {failure}"));
+        }
+        done
+    }
+}
+
+fn check_count(count: usize) -> Result<()> {
+    let message = match count {
+        0 => "nothing in the scene emits light".to_owned(),
+        1..=MOST_LIGHTS => return Ok(()),
+        _ => format!(
+            "{count} lights are more than the {MOST_LIGHTS} that can be kept apart; keep some together, as in --relightable='lamp*'"
+        ),
+    };
+    Err(Error::Setting { name: "relightable", message })
+}

@@ -1,0 +1,104 @@
+//! `radiosity relight`: other strengths and colours for the lights of a solved GLB.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use radiosity::export;
+use radiosity::reconstruct::Dimming;
+use serde_json::json;
+
+use super::failure::Failure;
+use super::meter::Meter;
+use super::options::{PictureOptions, ReportOptions};
+use super::record::cameras;
+use super::render::draw;
+use super::{console, outputs};
+
+/// Dim and colour the lights of a solved GLB, without solving again
+///
+/// The GLB was written by `radiosity solve --relightable`. The light is what a fresh solution with these lights, and with
+/// --relightable, would be. Without --light, says which lights there are.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Relight {
+    /// A GLB written by `radiosity solve --relightable`
+    #[arg(value_name = "FILE.glb")]
+    path: PathBuf,
+
+    /// What becomes of a light: off, 50%, x2, x1,0.8,0.6, a strength in its unit, 800lm, 60cd or 20000lx
+    ///
+    /// Names may have * for any text and ? for any character. May be repeated; the last one counts.
+    #[arg(long, value_name = "NAME=AMOUNT", value_parser = dimming)]
+    light: Vec<(String, Dimming)>,
+
+    /// Mesh to write: .glb, .obj or .ply; may be repeated
+    #[arg(short, long, value_name = "FILE")]
+    output: Vec<PathBuf>,
+
+    /// Picture to write: .png as seen, .hdr or .exr with linear radiance; may be repeated
+    #[arg(long, value_name = "FILE")]
+    image: Vec<PathBuf>,
+
+    #[command(flatten)]
+    picture: PictureOptions,
+
+    #[command(flatten)]
+    report: ReportOptions,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  radiosity solve office.obj --relightable -o office.glb
+  radiosity relight office.glb
+  radiosity relight office.glb --light 'ceiling*=30%' --light desk=800lm -o evening.glb --image evening.png";
+
+impl Relight {
+    pub(crate) fn run(self) -> Result<(), Failure> {
+        outputs::check(&self.path, &self.output, &self.image, &[])?;
+        self.picture.views(&self.image)?;
+        self.picture.check_for_file()?;
+        self.report.talk.use_threads()?;
+        let mut meter = Meter::new(&self.report.talk);
+        meter.begin("reading");
+        let (mut mesh, mut stamp) = export::load_solved(&self.path)?;
+        for (name, dimming) in &self.light {
+            mesh.dim(name, *dimming)?;
+        }
+        if let Some(exposure) = self.picture.exposure {
+            stamp.exposure = exposure;
+        }
+        if !self.output.is_empty() {
+            meter.begin("writing");
+        }
+        for path in &self.output {
+            export::save(&mesh, path, &stamp)?;
+        }
+        if !self.image.is_empty() {
+            let camera = self.picture.choose_camera(&cameras(&stamp.settings))?;
+            draw(&mesh, (&self.picture, &self.image), (&camera, stamp.exposure), &mut meter)?;
+        }
+        let seconds = meter.into_timings();
+        let lights = mesh.lights.iter().map(|light| &light.group);
+        if self.report.json {
+            let written: Vec<&PathBuf> = self.output.iter().chain(&self.image).collect();
+            let lights: Vec<_> = lights.collect();
+            console::print_json(
+                &json!({ "lights": lights, "written": written, "seconds": seconds }),
+            )?;
+        } else if !self.report.talk.quiet {
+            for light in lights {
+                console::print(&format!("light \"{}\": {light}", light.name))?;
+            }
+            if mesh.lights.is_empty() {
+                console::print("lights are not kept apart; solve with --relightable")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// `lamp=50%`.
+fn dimming(text: &str) -> Result<(String, Dimming), String> {
+    let (name, amount) = text.rsplit_once('=').ok_or("write NAME=AMOUNT, as in lamp=50%")?;
+    Ok((name.to_owned(), amount.parse()?))
+}
