@@ -21,6 +21,7 @@ mod repair;
 mod sides;
 mod sight;
 mod texture;
+mod up;
 mod weld;
 
 use glam::{DVec2, DVec3, Vec3};
@@ -37,6 +38,7 @@ pub use photometry::Photometry;
 pub(crate) use polygon::area_vector;
 pub use sides::{Sides, settle_sides};
 pub(crate) use texture::decode;
+pub use up::Up;
 
 /// A scene of polygons, in metres.
 #[derive(Clone, Debug, Default)]
@@ -95,13 +97,15 @@ impl Default for Face {
 pub struct LoadOptions {
     /// Metres per unit of an OBJ file (glTF is in metres by definition), default 1.
     pub metres_per_unit: f64,
+    /// Which axis of an OBJ file is up, default Y (it is in glTF by definition).
+    pub up: Up,
     /// Which sides of faces reflect and emit.
     pub two_sided: Sides,
 }
 
 impl Default for LoadOptions {
     fn default() -> Self {
-        Self { metres_per_unit: 1.0, two_sided: Sides::Auto }
+        Self { metres_per_unit: 1.0, up: Up::Y, two_sided: Sides::Auto }
     }
 }
 

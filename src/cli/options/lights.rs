@@ -47,7 +47,7 @@ pub(crate) struct LightOptions {
 
     /// Let the sun shine: degrees clockwise from north (-Z; east is +X), degrees over the horizon, lux facing it
     ///
-    /// It is 0.53° wide, so shadows have borders. Without LUX, that of clear air: 127500 exp(-0.21 / sin elevation), 95 000 lx at 45°.
+    /// Of a file read with --up z, north is its +Y. It is 0.53° wide, so shadows have borders. Without LUX, that of clear air: 127500 exp(-0.21 / sin elevation), 95 000 lx at 45°.
     #[arg(long, value_name = "AZIMUTH,ELEVATION[,LUX]", value_parser = sun)]
     #[arg(allow_hyphen_values = true)]
     sun: Option<Light>,
