@@ -160,6 +160,36 @@ fn boxes_a_hair_from_a_wall_come_out_whole() {
     }
 }
 
+/// A floor, and beyond its far edge three squares of which the corners lie, but for `noise`, inside that edge; they
+/// go on with it or stand on it, in a box that glows.
+fn floor_with_neighbours(noise: f64, up: DVec3) -> Scene {
+    let edge = [0.0, 0.9, 2.2, 3.0].map(|x| DVec3::new(x, 0.0, 0.0));
+    let off = [DVec3::ZERO, DVec3::new(0.2, 1.0, 0.6) * noise, DVec3::new(0.1, -0.7, 0.5) * noise];
+    let mut text = "v 0 0 2\nv 3 0 2\nv 3 0 0\nv 0 0 0\nf 1 2 3 4\n".to_owned();
+    for (k, off) in [off[0], off[1], off[2], off[0]].into_iter().enumerate() {
+        for p in [edge[k] + off, edge[k] + up] {
+            text += &format!("v {} {} {}\n", p.x, p.y, p.z);
+        }
+    }
+    text += "usemtl a\nf 5 7 8 6\nusemtl b\nf 7 9 10 8\nf 9 11 12 10\n";
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("s.obj");
+    std::fs::write(&path, text).unwrap();
+    let mut scene = radiosity::load(&path, &Default::default()).unwrap();
+    assert!(scene.notes.iter().any(|note| note.starts_with("2 T-junctions")), "{:?}", scene.notes);
+    scene.materials.last_mut().unwrap().emission = DVec3::ONE;
+    scene
+}
+
+#[test]
+fn corners_inside_edges_of_neighbours_leave_no_crack() {
+    for up in [DVec3::NEG_Z, DVec3::Y, DVec3::new(0.0, 1.0, -1.0)] {
+        for noise in [0.0, 1e-6, 1e-4] {
+            assert_sound(&floor_with_neighbours(noise, up), 1e-4);
+        }
+    }
+}
+
 #[test]
 fn materials_on_one_plane_keep_their_own_light() {
     let mut stage = Stage { scene: furnished_room(&[]) };

@@ -102,9 +102,11 @@ impl Solve {
         let mut meter = Meter::new(&self.report.talk);
         self.warn_of_nothing(&meter);
 
-        let (scene, camera) = self.read(&mut meter)?;
+        let (mut scene, camera) = self.read(&mut meter)?;
         meter.begin("surfaces");
         let surfaces = surfaces_of(&scene);
+        surfaces.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
+        scene.notes.extend_from_slice(&surfaces.notes);
         let places = self.grid.places(&surfaces)?;
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
         settings.validate_for(surfaces.area(), surfaces.extent)?;

@@ -1,6 +1,7 @@
 //! Cleaning of a scene as read, so that what follows may rely on every face.
 //!
-//! Afterwards equal positions have one index, faces have area, are planar, simple and listed once,
+//! Afterwards equal positions have one index, neighbours have the corners of their common edges, faces have
+//! area, are planar, simple and listed once,
 //! and their normals and texture coordinates are there only where they say something.
 
 use std::collections::{HashMap, HashSet};
@@ -14,7 +15,7 @@ use super::polygon::{
     area_vector, bulge, flattened, is_affine, is_simple, longest_edge, triangulate,
 };
 use super::weld::weld_rounded;
-use super::{Face, Scene};
+use super::{Face, Scene, junctions};
 
 /// Faces of less area, as a share of their longest edge squared, are dropped.
 const MIN_AREA: f64 = 1e-12;
@@ -27,6 +28,7 @@ pub(crate) fn clean(scene: &mut Scene) {
     weld(scene);
     weld_rounded(scene);
     drop_degenerate(scene);
+    junctions::join(scene);
     settle_uvs(scene);
     split_difficult(scene);
     drop_duplicates(scene);
@@ -47,10 +49,14 @@ fn weld(scene: &mut Scene) {
             })
         })
         .collect();
+    let mut used = vec![false; kept.len()];
     for vertex in scene.faces.iter_mut().flat_map(|face| &mut face.vertices) {
         *vertex = index_of[*vertex as usize];
+        used[*vertex as usize] = true;
     }
     scene.positions = kept;
+    let unused = used.iter().filter(|used| !**used).count();
+    note_count(&mut scene.notes, unused, "position", "that no face uses ignored");
 }
 
 /// Drops corners that repeat their predecessor, then faces without area.
