@@ -11,7 +11,7 @@ use common::{
 };
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
-use radiosity::{Scene, Settings, TriMesh};
+use radiosity::{Scene, Settings, TriMesh, surfaces_of};
 
 /// Corners of triangles by where they are, each with the unit normal of a triangle that has it.
 struct Grid {
@@ -112,8 +112,11 @@ fn assert_whole(mesh: &TriMesh, scene: &Scene) {
         );
         sum += area;
     }
-    let share = sum / area_of(scene);
-    assert!((share - 1.0).abs() < 1e-6, "{share} times the scene's area");
+    // Where faces of one plane overlap, one of them is left.
+    let expected = surfaces_of(scene).area();
+    assert!(expected < area_of(scene) * (1.0 + 1e-9), "{expected} m²");
+    let share = sum / expected;
+    assert!((share - 1.0).abs() < 1e-6, "{share} times the surfaces' area");
 }
 
 fn assert_sound(scene: &Scene, hair: f64) {
@@ -185,7 +188,11 @@ fn floor_with_neighbours(noise: f64, up: DVec3) -> Scene {
 fn corners_inside_edges_of_neighbours_leave_no_crack() {
     for up in [DVec3::NEG_Z, DVec3::Y, DVec3::new(0.0, 1.0, -1.0)] {
         for noise in [0.0, 1e-6, 1e-4] {
-            assert_sound(&floor_with_neighbours(noise, up), 1e-4);
+            let scene = floor_with_neighbours(noise, up);
+            let near = scene.positions.iter().map(|p| p.with_x(0.0).length()).filter(|&d| d < 0.1);
+            let off: Vec<f64> = near.filter(|&d| d > 1e-12).collect();
+            assert!(off.is_empty(), "{off:?} m from the edge");
+            assert_sound(&scene, 1e-7);
         }
     }
 }

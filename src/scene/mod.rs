@@ -6,6 +6,7 @@
 mod adding;
 mod camera;
 mod corners;
+mod daylight;
 mod gltf;
 mod ies;
 mod junctions;
@@ -124,6 +125,13 @@ impl Scene {
     /// Diagonal of [`Self::bounds`], m; 0 without faces.
     pub fn extent(&self) -> f64 {
         self.bounds().map_or(0.0, |(low, high)| low.distance(high))
+    }
+
+    /// Drops the faces of some materials; tells how many.
+    fn leave_out(&mut self, materials: &[usize]) -> usize {
+        let before = self.faces.len();
+        self.faces.retain(|face| !materials.contains(&(face.material as usize)));
+        before - self.faces.len()
     }
 
     /// Indices of the faces whose material emits light.

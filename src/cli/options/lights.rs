@@ -58,9 +58,10 @@ pub(crate) struct LightOptions {
     #[arg(long, value_name = "KIND[,LUX]", value_parser = sky)]
     sky: Option<Light>,
 
-    /// Change materials as a TOML file says: ["wall*"] with reflectance, emission, `double_sided` below it
+    /// Change materials as a TOML file says: ["wall*"] with reflectance, emission, `double_sided`, removed below it
     ///
     /// `reflectance = 0.7` or `[0.7, 0.6, 0.5]`, `emission = "800lm"`, 15 or `[17, 12, 4]`. They replace textures.
+    /// `removed = true` leaves the faces out: open windows, without the glass that would keep some of the light.
     #[arg(long, value_name = "FILE.toml")]
     materials: Option<PathBuf>,
 }

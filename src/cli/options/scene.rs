@@ -32,8 +32,8 @@ pub(crate) struct SceneOptions {
 
     /// Which sides of surfaces reflect and emit
     ///
-    /// The file says so (glTF `doubleSided`; OBJ: front sides only, with black backs), unless lamps would
-    /// shine on backs only: then `auto` turns faces over, or lights both sides, and says so.
+    /// The file says so (glTF `doubleSided`; OBJ: front sides only, with black backs), unless lamps, or
+    /// daylight in rooms, would shine on backs only: then `auto` turns faces over, or lights both sides, and says so.
     #[arg(long, value_name = "WHEN", value_enum, default_value_t = TwoSided::Auto)]
     #[arg(help_heading = "Reading")]
     two_sided: TwoSided,

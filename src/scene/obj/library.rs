@@ -30,6 +30,8 @@ pub(super) struct Library {
     fallback: Option<Use>,
     /// Names of the materials without a reflectance.
     colourless: Vec<String>,
+    /// Names of those that let light through.
+    transparent: Vec<String>,
 }
 
 impl Library {
@@ -56,6 +58,12 @@ impl Library {
             let names = listed(&library.colourless);
             scene.notes.push(format!("no Kd in {names}; grey of reflectance 0.5 is used"));
         }
+        if !library.transparent.is_empty() {
+            let names = listed(&library.transparent);
+            scene.notes.push(format!(
+                "transparency ignored, taken as opaque: {names}; --materials with `removed = true` leaves faces out"
+            ));
+        }
         library
     }
 
@@ -64,6 +72,9 @@ impl Library {
         let emission_map = from.emission_map.and_then(|map| self.picture(file, &map, scene));
         if from.reflectance.is_none() && reflectance_map.is_none() {
             self.colourless.push(from.name.clone());
+        }
+        if from.transparent {
+            self.transparent.push(from.name.clone());
         }
         let unsaid =
             if reflectance_map.is_some() { Rgb::ONE } else { Material::default().reflectance };
