@@ -3,8 +3,8 @@
 use std::fmt::{self, Display, Formatter};
 
 use glam::DVec3;
-use radiosity::scene::Camera;
-use radiosity::{Length, Settings};
+use radiosity::scene::{Camera, Light, Sky};
+use radiosity::{Length, Scene, Settings};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -109,12 +109,66 @@ impl CameraRecord {
     }
 }
 
+/// What is seen where there is no mesh; irradiances in W/m².
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+enum SkyRecord {
+    Uniform { irradiance: [f64; 3] },
+    CieOvercast { irradiance: [f64; 3] },
+    Sun { direction: [f64; 3], irradiance: [f64; 3] },
+}
+
+impl SkyRecord {
+    fn new(light: &Light) -> Option<Self> {
+        Some(match *light {
+            Light::Sky { sky: Sky::Uniform, irradiance } => {
+                Self::Uniform { irradiance: irradiance.to_array() }
+            }
+            Light::Sky { sky: Sky::Overcast, irradiance } => {
+                Self::CieOvercast { irradiance: irradiance.to_array() }
+            }
+            Light::Sun { direction, irradiance } => {
+                Self::Sun { direction: direction.to_array(), irradiance: irradiance.to_array() }
+            }
+            _ => return None,
+        })
+    }
+
+    fn light(self) -> Option<Light> {
+        let light = match self {
+            Self::Uniform { irradiance } => {
+                Light::Sky { sky: Sky::Uniform, irradiance: irradiance.into() }
+            }
+            Self::CieOvercast { irradiance } => {
+                Light::Sky { sky: Sky::Overcast, irradiance: irradiance.into() }
+            }
+            Self::Sun { direction, irradiance } => Light::Sun {
+                direction: DVec3::from(direction).try_normalize()?,
+                irradiance: irradiance.into(),
+            },
+        };
+        let seen = light.radiance(DVec3::Y);
+        (seen.is_finite() && seen.min_element() >= 0.0).then_some(light)
+    }
+}
+
+/// The skies and suns that a stamp's settings hold.
+pub(crate) fn lights(settings: &Value) -> Vec<Light> {
+    let records = settings.get("sky").cloned().unwrap_or_default();
+    let records: Vec<SkyRecord> = serde_json::from_value(records).unwrap_or_default();
+    records.into_iter().filter_map(SkyRecord::light).collect()
+}
+
 /// What goes into the settings of a GLB's stamp.
-pub(crate) fn stamped(settings: &SettingsRecord, cameras: &[Camera]) -> Value {
-    let cameras: Vec<CameraRecord> = cameras.iter().map(CameraRecord::from).collect();
+pub(crate) fn stamped(settings: &SettingsRecord, scene: &Scene) -> Value {
+    let sky: Vec<SkyRecord> = scene.lights.iter().filter_map(SkyRecord::new).collect();
+    let cameras: Vec<CameraRecord> = scene.cameras.iter().map(CameraRecord::from).collect();
     let mut record = serde_json::to_value(settings).unwrap_or_default();
-    if let (Some(fields), Ok(cameras)) = (record.as_object_mut(), serde_json::to_value(cameras)) {
-        fields.insert("cameras".to_owned(), cameras);
+    let lists = [("cameras", serde_json::to_value(cameras)), ("sky", serde_json::to_value(sky))];
+    for (name, list) in lists {
+        if let (Some(fields), Ok(list)) = (record.as_object_mut(), list) {
+            fields.insert(name.to_owned(), list);
+        }
     }
     record
 }

@@ -11,7 +11,7 @@ use serde_json::json;
 use super::failure::Failure;
 use super::meter::Meter;
 use super::options::{PictureOptions, ReportOptions, display};
-use super::record::{CameraRecord, cameras};
+use super::record::{CameraRecord, cameras, lights};
 use super::{console, outputs};
 
 /// Make a picture of a solved GLB, from anywhere
@@ -60,9 +60,10 @@ impl Render {
             meter.tell(&format!("camera {}", CameraRecord::from(&camera)));
         }
         let display = display(&mesh, self.picture.exposure.unwrap_or(stamp.exposure));
+        let lights = lights(&stamp.settings);
         let subject = Subject { mesh: &mesh, solved: None };
         for (view, paths) in views {
-            let picture = self.picture.picture(view, subject, &camera, |done| {
+            let picture = self.picture.picture(view, subject, (&camera, &lights), |done| {
                 meter.advance("picture", done);
                 ControlFlow::Continue(())
             });

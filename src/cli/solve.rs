@@ -124,7 +124,7 @@ impl Solve {
         let exposure = self.picture.exposure.unwrap_or_default();
         let stamp = Stamp {
             exposure,
-            settings: stamped(&settings_record, &scene.cameras),
+            settings: stamped(&settings_record, &scene),
             finished: solution.stop == Stop::Converged,
         };
         let solved = Solved { surfaces: &surfaces, settings: &settings, solution: &solution };
@@ -247,8 +247,9 @@ impl Solve {
             meter.tell(&format!("camera {}", CameraRecord::from(&camera)));
         }
         let display = display(subject.mesh, exposure);
+        let lights = subject.solved.map_or(&[][..], |solved| &solved.surfaces.lights);
         for (view, paths) in self.picture.views(&self.image)? {
-            let picture = self.picture.picture(view, subject, &camera, |done| {
+            let picture = self.picture.picture(view, subject, (&camera, lights), |done| {
                 meter.advance("picture", done);
                 interrupt.flow()
             });

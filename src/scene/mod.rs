@@ -33,6 +33,7 @@ use crate::colour::Rgb;
 
 pub use adding::{Amount, AreaLight};
 pub use camera::Camera;
+pub(crate) use light::SUN_RADIUS;
 pub use light::{DESIGN_SKY, Light, Sky, clear_sun};
 pub use load::load;
 pub use material::{MAX_REFLECTANCE, Material, Texture};

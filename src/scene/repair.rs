@@ -20,6 +20,9 @@ use super::{Face, Scene, junctions};
 /// Faces of less area, as a share of their longest edge squared, are dropped.
 const MIN_AREA: f64 = 1e-12;
 
+/// Faces of less are told.
+const SLIVER: f64 = 5e-5;
+
 /// Corners further from the face's plane, as a share of its longest edge, make it non-planar.
 const MAX_BULGE: f64 = 1e-6;
 
@@ -61,20 +64,23 @@ fn weld(scene: &mut Scene) {
 
 /// Drops corners that repeat their predecessor, then faces without area.
 fn drop_degenerate(scene: &mut Scene) {
-    let (mut shortened, before) = (0, scene.faces.len());
+    let (mut shortened, mut slivers, before) = (0, 0, scene.faces.len());
     let positions = &scene.positions;
     scene.faces.retain_mut(|face| {
         let repeats = drop_repeated_corners(face);
         let corners = face.corners(positions);
         let area = area_vector(&corners).length();
         // Written so that an undefined area fails too.
-        let keep = face.vertices.len() >= 3 && area > MIN_AREA * longest_edge(&corners).powi(2);
+        let square = longest_edge(&corners).powi(2);
+        let keep = face.vertices.len() >= 3 && area > MIN_AREA * square;
+        slivers += usize::from(keep && area < SLIVER * square);
         shortened += usize::from(repeats && keep);
         keep
     });
     let dropped = before - scene.faces.len();
     note_count(&mut scene.notes, dropped, "face", "without area dropped");
     note_count(&mut scene.notes, shortened, "face", "rid of repeated corners");
+    note_count(&mut scene.notes, slivers, "sliver", "kept: light on what is so thin is rough");
 }
 
 fn drop_repeated_corners(face: &mut Face) -> bool {
