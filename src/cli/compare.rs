@@ -116,6 +116,7 @@ impl Compare {
             meter.advance(&progress.phase, progress.done);
             interrupt.flow()
         })?;
+        comparison.surfaces.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
         meter.end();
         self.write(&scene, &comparison, &plan)?;
         if !self.talk.quiet {

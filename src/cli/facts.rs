@@ -60,7 +60,7 @@ struct LightFacts {
 impl Facts {
     pub(crate) fn new(path: PathBuf, scene: &Scene, surfaces: &Surfaces, mesh: &Mesh) -> Self {
         let (low, high) = scene.bounds().unwrap_or_default();
-        let mut notes = scene.notes.clone();
+        let mut notes = [scene.notes.as_slice(), &surfaces.notes].concat();
         if !scene.is_lit() {
             notes.push(format!("nothing emits light; this cannot be solved; {HINT}"));
         }

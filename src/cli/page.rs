@@ -80,7 +80,8 @@ impl PageOptions {
         steps.push(last_step(account));
         let camera = options.camera(account.camera, account.mesh);
         let subject = Subject { mesh: account.mesh, solved: Some(account.solved) };
-        let picture = options.picture(View::Light, subject, &camera, |done| {
+        let lights = &account.solved.surfaces.lights;
+        let picture = options.picture(View::Light, subject, (&camera, lights), |done| {
             meter.advance("page", done);
             interrupt.flow()
         });

@@ -3,8 +3,8 @@
 use std::fmt::{self, Display, Formatter};
 
 use glam::DVec3;
-use radiosity::scene::Camera;
-use radiosity::{Length, Settings};
+use radiosity::scene::{Camera, Light, NamedLight, Sky};
+use radiosity::{Length, Scene, Settings};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -109,13 +109,85 @@ impl CameraRecord {
     }
 }
 
-/// What goes into the settings of a GLB's stamp.
-pub(crate) fn stamped(settings: &SettingsRecord, cameras: &[Camera]) -> Value {
-    let cameras: Vec<CameraRecord> = cameras.iter().map(CameraRecord::from).collect();
-    let mut record = serde_json::to_value(settings).unwrap_or_default();
-    if let (Some(fields), Ok(cameras)) = (record.as_object_mut(), serde_json::to_value(cameras)) {
-        fields.insert("cameras".to_owned(), cameras);
+/// What is seen where there is no mesh; irradiances in W/m².
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+enum SkyRecord {
+    Uniform { irradiance: [f64; 3] },
+    CieOvercast { irradiance: [f64; 3] },
+    Sun { direction: [f64; 3], irradiance: [f64; 3] },
+}
+
+impl SkyRecord {
+    fn new(light: &Light) -> Option<Self> {
+        Some(match *light {
+            Light::Sky { sky: Sky::Uniform, irradiance } => {
+                Self::Uniform { irradiance: irradiance.to_array() }
+            }
+            Light::Sky { sky: Sky::Overcast, irradiance } => {
+                Self::CieOvercast { irradiance: irradiance.to_array() }
+            }
+            Light::Sun { direction, irradiance } => {
+                Self::Sun { direction: direction.to_array(), irradiance: irradiance.to_array() }
+            }
+            _ => return None,
+        })
     }
+
+    fn light(self) -> Option<Light> {
+        let light = match self {
+            Self::Uniform { irradiance } => {
+                Light::Sky { sky: Sky::Uniform, irradiance: irradiance.into() }
+            }
+            Self::CieOvercast { irradiance } => {
+                Light::Sky { sky: Sky::Overcast, irradiance: irradiance.into() }
+            }
+            Self::Sun { direction, irradiance } => Light::Sun {
+                direction: DVec3::from(direction).try_normalize()?,
+                irradiance: irradiance.into(),
+            },
+        };
+        let seen = light.radiance(DVec3::Y);
+        (seen.is_finite() && seen.min_element() >= 0.0).then_some(light)
+    }
+}
+
+/// The same with its name.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct NamedSky {
+    name: String,
+    #[serde(flatten)]
+    sky: SkyRecord,
+}
+
+/// The skies and suns that a stamp's settings hold.
+pub(crate) fn lights(settings: &Value) -> Vec<NamedLight> {
+    let records = settings.get("sky").cloned().unwrap_or_default();
+    let records: Vec<NamedSky> = serde_json::from_value(records).unwrap_or_default();
+    let light = |NamedSky { name, sky }| Some(NamedLight { name, light: sky.light()? });
+    records.into_iter().filter_map(light).collect()
+}
+
+/// Puts the skies and suns among some lights into a stamp's settings.
+pub(crate) fn keep_lights(settings: &mut Value, lights: &[NamedLight]) {
+    let record = |NamedLight { name, light }: &NamedLight| {
+        Some(NamedSky { name: name.clone(), sky: SkyRecord::new(light)? })
+    };
+    keep(settings, "sky", &lights.iter().filter_map(record).collect::<Vec<_>>());
+}
+
+fn keep(settings: &mut Value, name: &str, list: &impl Serialize) {
+    if let (Some(fields), Ok(list)) = (settings.as_object_mut(), serde_json::to_value(list)) {
+        fields.insert(name.to_owned(), list);
+    }
+}
+
+/// What goes into the settings of a GLB's stamp.
+pub(crate) fn stamped(settings: &SettingsRecord, scene: &Scene) -> Value {
+    let cameras: Vec<CameraRecord> = scene.cameras.iter().map(CameraRecord::from).collect();
+    let mut record = serde_json::to_value(settings).unwrap_or_default();
+    keep(&mut record, "cameras", &cameras);
+    keep_lights(&mut record, &scene.lights);
     record
 }
 

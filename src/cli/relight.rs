@@ -3,14 +3,17 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use radiosity::colour::Rgb;
 use radiosity::export;
-use radiosity::reconstruct::Dimming;
+use radiosity::reconstruct::{Dimming, LightShare};
+use radiosity::scene::NamedLight;
+use radiosity::surface::LightGroup;
 use serde_json::json;
 
 use super::failure::Failure;
 use super::meter::Meter;
 use super::options::{PictureOptions, ReportOptions};
-use super::record::cameras;
+use super::record::{cameras, keep_lights, lights};
 use super::render::draw;
 use super::{console, outputs};
 
@@ -61,9 +64,15 @@ impl Relight {
         let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
         let (mut mesh, mut stamp) = export::load_solved(&self.path)?;
+        let mut sky = lights(&stamp.settings);
         for (name, dimming) in &self.light {
+            let before: Vec<Rgb> = mesh.lights.iter().map(|light| light.group.strength).collect();
             mesh.dim(name, *dimming)?;
+            for (LightShare { group, .. }, before) in mesh.lights.iter().zip(before) {
+                sky.iter_mut().for_each(|sky| dim_sky(sky, group, before));
+            }
         }
+        keep_lights(&mut stamp.settings, &sky);
         if let Some(exposure) = self.picture.exposure {
             stamp.exposure = exposure;
         }
@@ -75,7 +84,12 @@ impl Relight {
         }
         if !self.image.is_empty() {
             let camera = self.picture.choose_camera(&cameras(&stamp.settings))?;
-            draw(&mesh, (&self.picture, &self.image), (&camera, stamp.exposure), &mut meter)?;
+            draw(
+                (&mesh, &sky),
+                (&self.picture, &self.image),
+                (&camera, stamp.exposure),
+                &mut meter,
+            )?;
         }
         let seconds = meter.into_timings();
         let lights = mesh.lights.iter().map(|light| &light.group);
@@ -94,6 +108,18 @@ impl Relight {
             }
         }
         Ok(())
+    }
+}
+
+/// What is seen of a sky follows its light, which was `before`.
+fn dim_sky(sky: &mut NamedLight, group: &LightGroup, before: Rgb) {
+    if !group.holds(&sky.name) {
+        return;
+    }
+    if let Some(irradiance) = sky.light.strength() {
+        let dimmed =
+            Rgb::select(before.cmpgt(Rgb::ZERO), irradiance / before, Rgb::ONE) * group.strength;
+        sky.light = sky.light.clone().with_strength(dimmed);
     }
 }
 

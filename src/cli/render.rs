@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use radiosity::render::{self, Subject};
+use radiosity::scene::NamedLight;
 use radiosity::tone::Exposure;
 use radiosity::{TriMesh, export};
 use serde_json::json;
@@ -12,7 +13,7 @@ use serde_json::json;
 use super::failure::Failure;
 use super::meter::Meter;
 use super::options::{CameraChoice, PictureOptions, ReportOptions, display};
-use super::record::{CameraRecord, cameras};
+use super::record::{CameraRecord, cameras, lights};
 use super::{console, outputs};
 
 /// Make a picture of a solved GLB, from anywhere
@@ -56,7 +57,9 @@ impl Render {
             meter.tell("the solution was stopped before it was done");
         }
         let exposure = self.picture.exposure.unwrap_or(stamp.exposure);
-        let camera = draw(&mesh, (&self.picture, &self.output), (&choice, exposure), &mut meter)?;
+        let lights = lights(&stamp.settings);
+        let camera =
+            draw((&mesh, &lights), (&self.picture, &self.output), (&choice, exposure), &mut meter)?;
         let seconds = meter.into_timings();
         if self.report.json {
             let written = &self.output;
@@ -72,9 +75,9 @@ impl Render {
     }
 }
 
-/// Makes pictures of a mesh that was read from a file, and returns from where.
+/// Makes pictures of a mesh that was read from a file and the sky behind it, and returns from where.
 pub(crate) fn draw(
-    mesh: &TriMesh,
+    (mesh, sky): (&TriMesh, &[NamedLight]),
     (options, paths): (&PictureOptions, &[PathBuf]),
     (choice, exposure): (&CameraChoice, Exposure),
     meter: &mut Meter,
@@ -86,7 +89,7 @@ pub(crate) fn draw(
     let display = display(mesh, exposure);
     let subject = Subject { mesh, solved: None };
     for (view, paths) in options.views(paths)? {
-        let picture = options.picture(view, subject, &camera, |done| {
+        let picture = options.picture(view, subject, (&camera, sky), |done| {
             meter.advance("picture", done);
             ControlFlow::Continue(())
         });

@@ -42,7 +42,7 @@ pub(crate) fn write(subject: &Subject<'_>, output: &Path) -> Result<()> {
     let account = Account {
         title: &title,
         identity: &identity(subject)?,
-        notes: &scene.notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        notes: &[scene.notes.as_slice(), &comparison.surfaces.notes].concat(),
         about,
         camera: &camera,
         display: Display::exposed(scale),

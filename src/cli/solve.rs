@@ -109,9 +109,11 @@ impl Solve {
         let mut meter = Meter::new(&self.report.talk);
         self.warn_of_nothing(&meter);
 
-        let (scene, camera) = self.read(&mut meter)?;
+        let (mut scene, camera) = self.read(&mut meter)?;
         meter.begin("surfaces");
         let surfaces = surfaces_of(&scene);
+        surfaces.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
+        scene.notes.extend_from_slice(&surfaces.notes);
         let places = self.grid.places(&surfaces)?;
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
         settings.validate_for(surfaces.area(), surfaces.extent)?;
@@ -130,7 +132,7 @@ impl Solve {
         let exposure = self.picture.exposure.unwrap_or_default();
         let stamp = Stamp {
             exposure,
-            settings: stamped(&settings_record, &scene.cameras),
+            settings: stamped(&settings_record, &scene),
             finished: solution.stop == Stop::Converged,
         };
         let solved = Solved { surfaces: &surfaces, settings: &settings, solution: &solution };
@@ -250,8 +252,9 @@ impl Solve {
         let camera = self.picture.camera(camera, subject.mesh);
         meter.explain(&format!("camera {}", CameraRecord::from(&camera)));
         let display = display(subject.mesh, exposure);
+        let lights = subject.solved.map_or(&[][..], |solved| &solved.surfaces.lights);
         for (view, paths) in self.picture.views(&self.image)? {
-            let picture = self.picture.picture(view, subject, &camera, |done| {
+            let picture = self.picture.picture(view, subject, (&camera, lights), |done| {
                 meter.advance("picture", done);
                 interrupt.flow()
             });

@@ -9,15 +9,12 @@ use glam::DVec3;
 use super::{AreaLamp, Glow};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon_above;
-use crate::scene::Sky;
+use crate::scene::{SUN_RADIUS, Sky};
 use crate::surface::Surfaces;
 use crate::visibility::{HalfSpace, Polygon};
 
 /// Half the width of the box, in extents of the scene: the horizon is off by less than 1e-4 radians.
 const FAR: f64 = 1e4;
-
-/// Half the angle that the sun fills, degrees.
-const SUN_RADIUS: f64 = 0.2666;
 
 /// The pieces of a sky with this irradiance of an open horizontal place, W/m²: 12 squares, four overhead and
 /// two in each direction.
@@ -44,7 +41,7 @@ pub(super) fn lamps(surfaces: &Surfaces, sky: Sky, irradiance: Rgb) -> Vec<AreaL
 pub(super) fn sun(surfaces: &Surfaces, direction: DVec3, irradiance: Rgb) -> Option<AreaLamp> {
     let (low, high) = surfaces.bounds()?;
     let (middle, distance) = (low.midpoint(high), FAR * surfaces.extent);
-    let half = distance * SUN_RADIUS.to_radians().tan() * PI.sqrt() / 2.0;
+    let half = distance * SUN_RADIUS.tan() * PI.sqrt() / 2.0;
     let x = DVec3::Y.cross(direction).try_normalize().unwrap_or(DVec3::X);
     let (u, v) = (x * half, direction.cross(x) * half);
     let centre = middle - direction * distance;

@@ -11,7 +11,7 @@ use super::tracer::Tracer;
 use super::view::View;
 use crate::colour::Rgb;
 use crate::reconstruct::TriMesh;
-use crate::scene::Camera;
+use crate::scene::{Camera, NamedLight};
 
 /// Linear pixels; all lists run row by row from the top and hold `width * height` values.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -63,6 +63,9 @@ pub struct RenderOptions {
     pub final_gather: bool,
     /// Radiance where there is no mesh, W/(m² sr), default 0; not in views of other quantities.
     pub background: Rgb,
+    /// Skies and suns seen where there is no mesh, over the background, default none; as that, in views of radiance
+    /// other than that of radiosity.
+    pub sky: Vec<NamedLight>,
 }
 
 impl Default for RenderOptions {
@@ -74,6 +77,7 @@ impl Default for RenderOptions {
             samples: 4,
             final_gather: false,
             background: Rgb::ZERO,
+            sky: Vec::new(),
         }
     }
 }

@@ -94,7 +94,7 @@ impl<'a> Tracer<'a> {
                 Some((direction, hit)) => {
                     (self.shade.value(&hit, gather), 1.0, self.line(direction, &hit))
                 }
-                None => (self.background, 0.0, 0.0),
+                None => (self.beyond(index, place), 0.0, 0.0),
             };
             pixel.value += value * share;
             pixel.coverage += coverage * share;
@@ -111,11 +111,26 @@ impl<'a> Tracer<'a> {
         })
     }
 
-    /// What is met at a place in a pixel, and in which direction.
-    fn look(&self, index: usize, (x, y): Place) -> Option<(DVec3, Hit)> {
+    /// The direction, not of unit length, of a place in a pixel.
+    fn direction(&self, index: usize, (x, y): Place) -> DVec3 {
         let width = self.options.width as usize;
         let (left, top) = ((index % width) as f64, (index / width) as f64);
-        let direction = self.rays.direction(left + x, top + y);
+        self.rays.direction(left + x, top + y)
+    }
+
+    /// What is seen where there is no mesh.
+    fn beyond(&self, index: usize, place: Place) -> Rgb {
+        if !self.options.view.shows_light() {
+            return self.background;
+        }
+        let direction = self.direction(index, place).normalize();
+        let sky = self.options.sky.iter().map(|named| named.light.radiance(direction));
+        self.background + sky.sum::<Rgb>()
+    }
+
+    /// What is met at a place in a pixel, and in which direction.
+    fn look(&self, index: usize, place: Place) -> Option<(DVec3, Hit)> {
+        let direction = self.direction(index, place);
         let hit = self.caster.first(self.rays.eye, direction.normalize(), Sides::Front)?;
         Some((direction, hit))
     }

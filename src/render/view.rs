@@ -52,6 +52,11 @@ impl View {
         matches!(self, Self::Light | Self::Wireframe | Self::Radiosity)
     }
 
+    /// True if values are radiances to be seen as they are.
+    pub(super) fn shows_light(self) -> bool {
+        matches!(self, Self::Light | Self::Wireframe)
+    }
+
     /// True if values are the colours to be seen, linear.
     pub(super) fn shows_colours(self) -> bool {
         matches!(self, Self::Level | Self::Reason)

@@ -1,5 +1,6 @@
 //! Lights without a surface.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -116,7 +117,36 @@ pub fn clear_sun(elevation: f64) -> f64 {
     if sine > 0.0 { SUN_OUTSIDE * (-CLEAR_AIR / sine).exp() } else { 0.0 }
 }
 
+/// Half the angle that the sun fills, radians.
+pub(crate) const SUN_RADIUS: f64 = 0.2666 * PI / 180.0;
+
+impl Sky {
+    /// Radiance in a unit `direction`, Y up, as a share of the irradiance of an open horizontal place, 1/sr; none
+    /// below the horizon.
+    pub fn radiance(self, direction: DVec3) -> f64 {
+        match self {
+            _ if direction.y < 0.0 => 0.0,
+            Self::Uniform => 1.0 / PI,
+            Self::Overcast => 9.0 / (7.0 * PI) * (1.0 + 2.0 * direction.y) / 3.0,
+        }
+    }
+}
+
 impl Light {
+    /// What is seen of it in a unit `direction` far outside of the scene, W/(m² sr): of skies and suns. Nothing of
+    /// lights that fill no angle.
+    pub fn radiance(&self, direction: DVec3) -> Rgb {
+        match *self {
+            Self::Sky { sky, irradiance } => irradiance * sky.radiance(direction),
+            Self::Sun { direction: away, irradiance }
+                if -away.dot(direction) > SUN_RADIUS.cos() =>
+            {
+                irradiance / (PI * SUN_RADIUS.sin().powi(2))
+            }
+            _ => Rgb::ZERO,
+        }
+    }
+
     /// A sun at an `azimuth`, degrees clockwise from north (-Z; east is +X), and an `elevation` over the
     /// horizon, degrees, with this illuminance of a plane that faces it, lx.
     pub fn sun(azimuth: f64, elevation: f64, lux: f64) -> Self {

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::notes::{counted, listed};
-use super::{LoadOptions, MAX_REFLECTANCE, Scene, gltf, obj, repair, settle_sides};
+use super::{LoadOptions, MAX_REFLECTANCE, Scene, Up, gltf, obj, repair, settle_sides, up};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
 
@@ -63,7 +63,13 @@ fn read(path: &Path, options: &LoadOptions) -> Result<Scene> {
                 let message = format!("{scale} metres per unit; use a positive number");
                 return Err(Error::Setting { name: "units", message });
             }
-            obj::read(path, scale)
+            let mut scene = obj::read(path, options)?;
+            up::note_standing_floors(&mut scene, options.up);
+            Ok(scene)
+        }
+        "gltf" | "glb" if options.up == Up::Z => {
+            let message = "glTF files have Y up by definition; only OBJ files may have Z up";
+            Err(Error::Setting { name: "up", message: message.to_owned() })
         }
         "gltf" | "glb" => gltf::read(path),
         _ => Err(Error::UnknownFormat { path: path.to_owned(), known: ".obj, .gltf, .glb" }),

@@ -6,8 +6,10 @@
 mod adding;
 mod camera;
 mod corners;
+mod daylight;
 mod gltf;
 mod ies;
+mod junctions;
 mod light;
 mod load;
 mod material;
@@ -21,6 +23,7 @@ mod repair;
 mod sides;
 mod sight;
 mod texture;
+mod up;
 mod weld;
 
 use glam::{DVec2, DVec3, Vec3};
@@ -30,14 +33,17 @@ use crate::colour::Rgb;
 
 pub use adding::{Amount, AreaLight};
 pub use camera::Camera;
+pub(crate) use light::SUN_RADIUS;
 pub use light::{DESIGN_SKY, Light, NamedLight, Sky, clear_sun};
 pub use load::load;
 pub use material::{MAX_REFLECTANCE, Material, Texture};
 pub(crate) use names::matches;
+pub(crate) use notes::note_count;
 pub use photometry::Photometry;
 pub(crate) use polygon::area_vector;
 pub use sides::{Sides, settle_sides};
 pub(crate) use texture::decode;
+pub use up::Up;
 
 /// A scene of polygons, in metres.
 #[derive(Clone, Debug, Default)]
@@ -96,13 +102,15 @@ impl Default for Face {
 pub struct LoadOptions {
     /// Metres per unit of an OBJ file (glTF is in metres by definition), default 1.
     pub metres_per_unit: f64,
+    /// Which axis of an OBJ file is up, default Y (it is in glTF by definition).
+    pub up: Up,
     /// Which sides of faces reflect and emit.
     pub two_sided: Sides,
 }
 
 impl Default for LoadOptions {
     fn default() -> Self {
-        Self { metres_per_unit: 1.0, two_sided: Sides::Auto }
+        Self { metres_per_unit: 1.0, up: Up::Y, two_sided: Sides::Auto }
     }
 }
 
@@ -119,6 +127,13 @@ impl Scene {
     /// Diagonal of [`Self::bounds`], m; 0 without faces.
     pub fn extent(&self) -> f64 {
         self.bounds().map_or(0.0, |(low, high)| low.distance(high))
+    }
+
+    /// Drops the faces of some materials; tells how many.
+    fn leave_out(&mut self, materials: &[usize]) -> usize {
+        let before = self.faces.len();
+        self.faces.retain(|face| !materials.contains(&(face.material as usize)));
+        before - self.faces.len()
     }
 
     /// Indices of the faces whose material emits light.

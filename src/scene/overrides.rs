@@ -7,6 +7,7 @@ use toml::{Spanned, Value};
 
 use super::adding::Amount;
 use super::load::limit_materials;
+use super::notes::{counted, listed};
 use super::{Material, Scene};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
@@ -20,7 +21,8 @@ type Wrong = (usize, String);
 impl Scene {
     /// Changes materials as a TOML file says: a table for each name, or pattern with `*` and `?`, with
     /// `reflectance` (0 to 1, or three such numbers), `emission` (W/(m² sr), or three such numbers, or
-    /// `"800lm"` of all faces that the table is about) and `double_sided`.
+    /// `"800lm"` of all faces that the table is about), `double_sided`, and `removed`: its faces are left out, as
+    /// a window is open, without what glass would keep.
     ///
     /// A reflectance or an emission replaces its texture. Of tables about the same material, later ones win.
     ///
@@ -79,17 +81,28 @@ impl Scene {
             ("double_sided", &Value::Boolean(both)) => {
                 each(&|material| material.double_sided = both);
             }
+            ("removed", &Value::Boolean(true)) => self.remove(named),
+            ("removed", &Value::Boolean(false)) => (),
+            ("removed", _) => return Err("removed: write true or false".to_owned()),
             ("double_sided", _) => return Err("double_sided: write true or false".to_owned()),
             _ => {
-                let known = "use reflectance, emission or double_sided";
+                let known = "use reflectance, emission, double_sided or removed";
                 return Err(format!("unknown key \"{key}\"; {known}"));
             }
         }
         Ok(())
     }
+
+    /// Leaves out the faces of some materials.
+    fn remove(&mut self, named: &[usize]) {
+        let names: Vec<String> =
+            named.iter().map(|&number| self.materials[number].name.clone()).collect();
+        let count = counted(self.leave_out(named), "face");
+        self.notes.push(format!("{count} of {} removed: open, not even glass", listed(&names)));
+    }
 }
 
-/// Sides before lumens: how many there are decides what radiance makes a flux.
+/// Faces and sides before lumens: how many there are decides what radiance makes a flux.
 fn order(table: BTreeMap<Spanned<String>, Value>) -> Vec<(Spanned<String>, Value)> {
     let mut entries: Vec<_> = table.into_iter().collect();
     entries.sort_by_key(|(key, _)| (key.get_ref() == "emission", key.span().start));

@@ -1,6 +1,7 @@
 //! Cleaning of a scene as read, so that what follows may rely on every face.
 //!
-//! Afterwards equal positions have one index, faces have area, are planar, simple and listed once,
+//! Afterwards equal positions have one index, neighbours have the corners of their common edges, faces have
+//! area, are planar, simple and listed once,
 //! and their normals and texture coordinates are there only where they say something.
 
 use std::collections::{HashMap, HashSet};
@@ -14,10 +15,13 @@ use super::polygon::{
     area_vector, bulge, flattened, is_affine, is_simple, longest_edge, triangulate,
 };
 use super::weld::weld_rounded;
-use super::{Face, Scene};
+use super::{Face, Scene, junctions};
 
 /// Faces of less area, as a share of their longest edge squared, are dropped.
 const MIN_AREA: f64 = 1e-12;
+
+/// Faces of less are told.
+const SLIVER: f64 = 5e-5;
 
 /// Corners further from the face's plane, as a share of its longest edge, make it non-planar.
 const MAX_BULGE: f64 = 1e-6;
@@ -27,6 +31,7 @@ pub(crate) fn clean(scene: &mut Scene) {
     weld(scene);
     weld_rounded(scene);
     drop_degenerate(scene);
+    junctions::join(scene);
     settle_uvs(scene);
     split_difficult(scene);
     drop_duplicates(scene);
@@ -47,28 +52,35 @@ fn weld(scene: &mut Scene) {
             })
         })
         .collect();
+    let mut used = vec![false; kept.len()];
     for vertex in scene.faces.iter_mut().flat_map(|face| &mut face.vertices) {
         *vertex = index_of[*vertex as usize];
+        used[*vertex as usize] = true;
     }
     scene.positions = kept;
+    let unused = used.iter().filter(|used| !**used).count();
+    note_count(&mut scene.notes, unused, "position", "that no face uses ignored");
 }
 
 /// Drops corners that repeat their predecessor, then faces without area.
 fn drop_degenerate(scene: &mut Scene) {
-    let (mut shortened, before) = (0, scene.faces.len());
+    let (mut shortened, mut slivers, before) = (0, 0, scene.faces.len());
     let positions = &scene.positions;
     scene.faces.retain_mut(|face| {
         let repeats = drop_repeated_corners(face);
         let corners = face.corners(positions);
         let area = area_vector(&corners).length();
         // Written so that an undefined area fails too.
-        let keep = face.vertices.len() >= 3 && area > MIN_AREA * longest_edge(&corners).powi(2);
+        let square = longest_edge(&corners).powi(2);
+        let keep = face.vertices.len() >= 3 && area > MIN_AREA * square;
+        slivers += usize::from(keep && area < SLIVER * square);
         shortened += usize::from(repeats && keep);
         keep
     });
     let dropped = before - scene.faces.len();
     note_count(&mut scene.notes, dropped, "face", "without area dropped");
     note_count(&mut scene.notes, shortened, "face", "rid of repeated corners");
+    note_count(&mut scene.notes, slivers, "sliver", "kept: light on what is so thin is rough");
 }
 
 fn drop_repeated_corners(face: &mut Face) -> bool {

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::daylight::{FEWEST_ENTERED, entering};
 use super::sight::Sight;
 use super::{Face, Light, NamedLight, Scene};
 use crate::colour::luminance;
@@ -24,8 +25,8 @@ pub enum Sides {
 ///
 /// [`Sides::Auto`] follows light from lamps to the first face. If it meets hardly any front, but what
 /// leaves the lamps' backs meets backs, everything was modelled inside out and is turned over. If it
-/// meets more backs than fronts, all faces but the lamps get two sides. Without lamps, or with light
-/// from outside alone, the file is right.
+/// meets more backs than fronts, all faces but the lamps get two sides. So they do if there are no lamps and
+/// light from outside, where it enters a room, meets more backs than fronts. Else the file is right.
 pub fn settle_sides(scene: &mut Scene, sides: Sides) {
     match sides {
         Sides::AsWritten => {}
@@ -46,14 +47,17 @@ fn follow_light(scene: &mut Scene) {
             percent(found.behind),
             percent(found.fronts)
         ));
-    } else if found.backs > found.fronts {
+    } else if found.backs > found.fronts || found.enters_behind() {
         let lamps = |emission: DVec3| emission.max_element() > 0.0;
         for material in scene.materials.iter_mut().filter(|material| !lamps(material.emission)) {
             material.double_sided = true;
         }
+        let light = match found.enters_behind() {
+            true => "light that enters rooms from outside".to_owned(),
+            false => format!("{} of the light from lamps", percent(found.backs)),
+        };
         scene.notes.push(format!(
-            "both sides of faces reflect: {} of the light from lamps fell on backs; --two-sided off leaves those black",
-            percent(found.backs)
+            "both sides of faces reflect: {light} fell on backs; --two-sided off leaves those black"
         ));
     } else if found.backs > WORTH_TELLING {
         scene.notes.push(format!(
@@ -93,6 +97,8 @@ struct Found {
     behind: f64,
     /// Mean way to what is met before lamps and behind them, m.
     ways: [f64; 2],
+    /// Without lamps: places in rooms that light from outside reaches on fronts and on backs.
+    entering: [usize; 2],
 }
 
 impl Found {
@@ -106,6 +112,9 @@ impl Found {
         let (before, behind) = rays_of_faces(scene, &sight, rays);
         let mut found = Self::default();
         let points = rays_of_lights(scene, rays);
+        if before.is_empty() && points.is_empty() {
+            return Self { entering: entering(scene, &sight), ..Self::default() };
+        }
         let seen = sight.all(&[before, points].concat());
         let total = seen.len().max(1) as f64;
         for hit in seen.iter().flatten() {
@@ -119,6 +128,11 @@ impl Found {
         found.behind = count / seen.len().max(1) as f64;
         found.ways[1] = way / f64::max(count, 1.0);
         found
+    }
+
+    fn enters_behind(&self) -> bool {
+        let [fronts, backs] = self.entering;
+        backs >= FEWEST_ENTERED && backs > fronts
     }
 
     fn is_inside_out(&self) -> bool {
@@ -191,14 +205,14 @@ fn rays_of_lights(scene: &Scene, count: usize) -> Vec<Ray> {
 
 /// The `index`-th point of a sequence that fills the unit cube of four dimensions evenly
 /// ([Roberts 2018](https://extremelearning.com.au/unreasonable-effectiveness-of-quasirandom-sequences/)).
-fn spread(index: usize) -> [f64; 4] {
+pub(super) fn spread(index: usize) -> [f64; 4] {
     // Root of x⁵ = x + 1.
     const ROOT: f64 = 1.167_303_978_261_418_7;
     [1, 2, 3, 4].map(|power| (0.5 + (index + 1) as f64 / ROOT.powi(power)).fract())
 }
 
 /// The point of the unit sphere at shares of its height and its circumference.
-fn on_sphere(u: f64, v: f64) -> DVec3 {
+pub(super) fn on_sphere(u: f64, v: f64) -> DVec3 {
     let height = 2.0 * u - 1.0;
     let (sin, cos) = (std::f64::consts::TAU * v).sin_cos();
     let radius = (1.0 - height * height).max(0.0).sqrt();

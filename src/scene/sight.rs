@@ -61,7 +61,8 @@ impl<'a> Sight<'a> {
         rays.par_iter().map(|&(start, direction)| self.first(start, direction)).collect()
     }
 
-    fn first(&self, start: DVec3, direction: DVec3) -> Option<Hit> {
+    /// What a ray from `start` along a unit `direction` meets.
+    pub(super) fn first(&self, start: DVec3, direction: DVec3) -> Option<Hit> {
         let hits = self.triangles.iter().filter_map(|(face, corners)| {
             let (distance, front) = crossing(start, direction, corners)?;
             (distance > self.nearest).then_some((distance, front, *face))

@@ -145,6 +145,11 @@ impl Surfaces {
 }
 
 impl LightGroup {
+    /// Whether lights of a name are in the group.
+    pub fn holds(&self, name: &str) -> bool {
+        self.name == name || matches(&self.name, name)
+    }
+
     /// What a light of the group has of its strength, channel by channel; where the group has none of a colour, as
     /// much as of all colours together.
     fn share(&self, strength: Rgb) -> Rgb {

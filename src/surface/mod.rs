@@ -7,6 +7,7 @@ mod light_group;
 mod merge;
 mod outliers;
 mod overlap;
+mod partly;
 mod picture;
 mod plane;
 pub mod polygon;
@@ -41,6 +42,8 @@ pub struct Surfaces {
     pub extent: f64,
     /// Distances that count as zero, m.
     pub tolerance: f64,
+    /// What was done about faces in one place, a line each, for the user to read.
+    pub notes: Vec<String>,
 }
 
 /// A planar polygon of one material that reflects and emits from its front.
@@ -78,7 +81,9 @@ const TOLERANCE: f64 = 2e-7;
 /// The surfaces of a scene and their contact lines.
 pub fn surfaces_of(scene: &Scene) -> Surfaces {
     let regions = merge::regions(scene, TOLERANCE * scene.extent());
-    with_contacts(of_regions(scene, overlap::without_overlaps(scene, regions)))
+    let mut notes = Vec::new();
+    let regions = overlap::without_overlaps(scene, regions, &mut notes);
+    Surfaces { notes, ..with_contacts(of_regions(scene, regions)) }
 }
 
 /// The faces of a scene, each a surface of its own, and their contact lines.
@@ -112,6 +117,7 @@ fn of_regions(scene: &Scene, regions: Vec<merge::Region>) -> Surfaces {
         textures: scene.textures.clone(),
         extent,
         tolerance,
+        notes: Vec::new(),
     }
 }
 

@@ -6,23 +6,36 @@ use super::TOLERANCE;
 use super::boxes::close_pairs;
 use super::contact::inside;
 use super::merge::Region;
+use super::partly;
 use super::polygon::{Ring, area, centroid, contains, edges};
 use crate::colour::luminance;
-use crate::scene::Scene;
+use crate::scene::{Scene, note_count};
 
-/// Regions of which none covers another: what lies in the plane of a larger one, faces the same way and does
-/// not reach beyond it, is cut out of it.
+/// Regions of which none covers another: what lies in the plane of a larger one and faces the same way is cut
+/// out of it; what reaches beyond it cuts it or is cut, as the one that glows, or else the smaller one, is left
+/// whole. What was done is told in `notes`.
 ///
-/// Without this, light would fall on both. Regions that overlap in part are left as they are.
-pub(super) fn without_overlaps(scene: &Scene, mut regions: Vec<Region>) -> Vec<Region> {
+/// Without this, light would fall on both.
+pub(super) fn without_overlaps(
+    scene: &Scene,
+    mut regions: Vec<Region>,
+    notes: &mut Vec<String>,
+) -> Vec<Region> {
     let tolerance = TOLERANCE * scene.extent();
     let bounds: Vec<_> = regions.iter().map(bounds).collect();
+    let ranks: Vec<Rank> = (0..regions.len()).map(|k| Rank::new(scene, &regions, k)).collect();
     let mut within: Vec<Vec<usize>> = vec![Vec::new(); regions.len()];
+    let mut beside = Vec::new();
     for (large, small) in close_pairs(&bounds, tolerance) {
-        if is_covered(scene, &regions, [large, small], tolerance) {
+        if is_covered(&regions, [large, small], &ranks, tolerance) {
             within[large].push(small);
+        } else {
+            beside.push((large, small));
         }
     }
+    let mut inner: Vec<usize> = within.iter().flatten().copied().collect();
+    inner.sort_unstable();
+    inner.dedup();
     // What lies in one of these lies in all that it lies in: those without are cut first, and then are
     // what is to be seen of them.
     let mut order: Vec<usize> = (0..regions.len()).filter(|&k| !within[k].is_empty()).collect();
@@ -32,7 +45,38 @@ pub(super) fn without_overlaps(scene: &Scene, mut regions: Vec<Region>) -> Vec<R
         let seen: Vec<Ring> = seen.collect();
         regions[large].rings.extend(seen);
     }
+    let cut = partly::cut(&mut regions, &beside, &ranks, tolerance);
+    note_count(notes, inner.len(), "surface", "cut out of larger ones in whose planes they lie");
+    note_count(notes, cut, "surface", "cut where another lies in its plane");
     regions
+}
+
+/// Which of two regions in one place is meant: the greater.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub(super) struct Rank {
+    /// What glows is meant.
+    glow: f64,
+    /// Else what is smaller; m², negative.
+    smallness: f64,
+    /// Else what the file has first.
+    place: std::cmp::Reverse<usize>,
+}
+
+impl Rank {
+    fn new(scene: &Scene, regions: &[Region], place: usize) -> Self {
+        let region = &regions[place];
+        let face = &scene.faces[region.faces[0]];
+        let glow = luminance(scene.materials[face.material as usize].emission);
+        // To six digits, so that rounding does not decide.
+        let size = size(region);
+        let unit = 10f64.powf(size.max(f64::MIN_POSITIVE).log10().floor() - 6.0);
+        let smallness = -(size / unit).round() * unit;
+        Self { glow, smallness, place: std::cmp::Reverse(place) }
+    }
+}
+
+fn size(region: &Region) -> f64 {
+    region.rings.iter().map(|ring| area(ring)).sum()
 }
 
 fn bounds(region: &Region) -> (DVec3, DVec3) {
@@ -47,28 +91,29 @@ fn seen_from(regions: &[Region], [large, small]: [usize; 2]) -> Vec<Ring> {
     inner.rings.iter().map(|ring| ring.iter().rev().map(flat).collect()).collect()
 }
 
+/// True if two regions lie in one plane and face the same way.
+pub(super) fn are_level(outer: &Region, inner: &Region, tolerance: f64) -> bool {
+    let level = |p: DVec3| outer.plane.height(p).abs() <= tolerance;
+    let mut corners = inner.rings.iter().flatten().map(|&p| inner.plane.lift(p));
+    inner.plane.normal.dot(outer.plane.normal) > 0.999 && corners.all(level)
+}
+
 /// True if the second region lies in the first and is to be seen in its stead.
 fn is_covered(
-    scene: &Scene,
     regions: &[Region],
     [large, small]: [usize; 2],
+    ranks: &[Rank],
     tolerance: f64,
 ) -> bool {
     let (outer, inner) = (&regions[large], &regions[small]);
-    let level = |p: DVec3| outer.plane.height(p).abs() <= tolerance;
-    let mut corners = inner.rings.iter().flatten().map(|&p| inner.plane.lift(p));
-    if inner.plane.normal.dot(outer.plane.normal) < 0.999 || !corners.all(level) {
+    if !are_level(outer, inner, tolerance) {
         return false;
     }
-    let glow = |region: &Region| {
-        let face = &scene.faces[region.faces[0]];
-        luminance(scene.materials[face.material as usize].emission)
-    };
-    let size = |region: &Region| region.rings.iter().map(|ring| area(ring)).sum::<f64>();
     let sizes = [size(outer), size(inner)];
     let alike = (sizes[0] - sizes[1]).abs() <= 1e-6 * sizes[0];
     // Of two in one place, the one that glows is meant, or else the one that the file has first.
-    let is_meant = alike && (glow(outer), small) >= (glow(inner), large);
+    let order = |k: usize| (ranks[k].glow, ranks[k].place);
+    let is_meant = alike && order(large) >= order(small);
     (alike || sizes[0] > sizes[1])
         && !is_meant
         && is_within(&seen_from(regions, [large, small]), &outer.rings, tolerance)
@@ -139,11 +184,36 @@ mod tests {
     #[test]
     fn what_faces_the_other_way_lies_beside_or_reaches_out_stays() {
         assert_eq!(areas(&[&[0, 1, 2, 3], &[7, 6, 5, 4]], &SQUARES), [16.0, 1.0]);
-        for moved in [4.0, 2.5] {
-            let mut squares = SQUARES;
-            squares[4..].iter_mut().for_each(|p| p[0] += moved);
-            assert_eq!(areas(&[&[0, 1, 2, 3], &[4, 5, 6, 7]], &squares), [16.0, 1.0], "{moved}");
+        assert_eq!(areas(&[&[0, 1, 2, 3], &[4, 5, 6, 7]], &moved(3.0)), [16.0, 1.0]);
+    }
+
+    /// The small square moved along the large one's edge.
+    fn moved(by: f64) -> [[f64; 3]; 8] {
+        let mut squares = SQUARES;
+        squares[4..].iter_mut().for_each(|p| p[0] += by);
+        squares
+    }
+
+    #[test]
+    fn what_reaches_out_of_a_surface_cuts_it() {
+        for by in [2.5, -1.75] {
+            let common = if by > 0.0 { 0.5 } else { 0.25 };
+            let found = areas(&[&[0, 1, 2, 3], &[4, 5, 6, 7]], &moved(by));
+            assert_eq!(found, [16.0 - common, 1.0]);
+            assert_eq!(areas(&[&[4, 5, 6, 7], &[0, 1, 2, 3]], &moved(by)), [1.0, 16.0 - common]);
         }
+        // A strip across divides; of equals, the first is whole; what two cover is gone.
+        let strip = [[-1., 1., 0.], [5., 1., 0.], [5., 2., 0.], [-1., 2., 0.]];
+        let places = [&SQUARES[..4], &strip].concat();
+        assert_eq!(areas(&[&[0, 1, 2, 3], &[4, 5, 6, 7]], &places), [4.0, 8.0, 6.0]);
+        let shifted = [[2., 0., 0.], [6., 0., 0.], [6., 4., 0.], [2., 4., 0.]];
+        let places = [&SQUARES[..4], &shifted].concat();
+        assert_eq!(areas(&[&[0, 1, 2, 3], &[4, 5, 6, 7]], &places), [16.0, 8.0]);
+        let halves = [[-1., -1., 0.], [2., -1., 0.], [2., 4., 0.], [-1., 4., 0.]];
+        let rest = [[2., 0., 0.], [4., 0., 0.], [4., 5., 0.], [2., 5., 0.]];
+        let places = [&SQUARES[..4], &halves, &rest].concat();
+        let faces: [&[u32]; 3] = [&[0, 1, 2, 3], &[4, 5, 6, 7], &[8, 9, 10, 11]];
+        assert_eq!(areas(&faces, &places), [15.0, 10.0]);
     }
 
     #[test]

@@ -161,3 +161,42 @@ fn a_solved_file_is_relit_as_a_fresh_solution_would_be() {
     place.run(&solve(&["--emit", "panel=5"])).done();
     place.run(&["relight", "a.glb", "--light", "panel=off"]).refused(2, &["--relightable"]);
 }
+
+#[test]
+fn the_sky_is_seen_behind_the_scene_now_and_from_the_file() {
+    let place = Place::new();
+    place.write("floor.obj", "v 0 0 0\nv 0 0 4\nv 4 0 4\nv 4 0 0\nf 1 2 3 4\n");
+    let view = ["--size", "40x30", "--eye", "2,1,3.9", "--target", "2,1,0"];
+    let solve = ["solve", "floor.obj", "--sky", "uniform", "-o", "a.glb", "--image", "a.png"];
+    place.run(&[&solve[..], &COARSE, &view].concat()).done();
+    place.run(&[&["render", "a.glb", "-o", "b.png"], &view[..]].concat()).done();
+    let [now, later] = ["a.png", "b.png"]
+        .map(|name| image::open(place.path(name)).expect("a picture").into_rgb8());
+    let (above, below) = (now.get_pixel(20, 2).0, now.get_pixel(20, 16).0);
+    assert!(above.iter().all(|&c| c > 150), "{above:?}");
+    assert_eq!(below, [0; 3], "between the floor's edge and the horizon");
+    assert_eq!(now, later);
+}
+
+#[test]
+fn open_windows_and_turned_files_light_a_room() {
+    let place = room();
+    // The panel is a roof light; the file has Z up.
+    let turned = ROOM.lines().map(|line| match line.strip_prefix("v ") {
+        Some(place) => {
+            let [x, y, z] = place.split(' ').collect::<Vec<_>>()[..] else { panic!("{line}") };
+            format!("v {x} -{z} {y}\n")
+        }
+        None => format!("{line}\n"),
+    });
+    place.write("turned.obj", &turned.collect::<String>());
+    place.write("open.toml", "[panel]\nremoved = true\n");
+    let lit = |more: &[&str]| {
+        let solve = ["--json", "--materials", "open.toml", "--sky", "uniform", "-o", "a.glb"];
+        let json = place.run(&[more, &solve[..], &COARSE].concat()).done().json();
+        assert!(json["notes"].to_string().contains("removed: open"), "{json}");
+        json["energy"]["absorbed"][0].as_f64().expect("a number")
+    };
+    let [plain, turned] = [lit(&["solve", "room.obj"]), lit(&["solve", "turned.obj", "--up", "z"])];
+    assert!(plain > 1.0 && (turned / plain - 1.0).abs() < 1e-6, "{plain} W and {turned} W");
+}

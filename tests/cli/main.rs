@@ -7,6 +7,7 @@ mod form_factors;
 mod interrupt;
 mod lights;
 mod page;
+mod repairs;
 mod solve;
 mod usage;
 mod views;

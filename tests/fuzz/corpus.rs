@@ -122,6 +122,16 @@ fn asset_of(scene: &Scene) -> Asset {
     asset
 }
 
+/// Luminaires of each kind of symmetry and version.
+pub(crate) const IES: [&str; 4] = [
+    "IESNA:LM-63-2002\n[TEST] none\n[MANUFAC] nobody\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 60\n0 45 90\n0\n800 400 0\n",
+    "IESNA:LM-63-1995\nTILT=NONE\n2 1000 1.5 4 2 1 1 0.1 0.2 0\n1.0 1.0 30\n0 30 60 90\n0 90\n900 700 300 0\n\
+     900 600 200 0\n",
+    "A LAMP OF 1986\nTILT=NONE\n1 1200 1.0 3 3 1 2 0 0 0 1 1 40\n90 135 180\n0 90 180\n0 100 200 0 90\n190 0 110\n210\n",
+    "IESNA91\nTILT=NONE\n1 -1 1 3 5 1 2 -0.1 0 0.1\n1 1 60\n0 90 180\n0 90 180 270 360\n100 50 0\n100 40 0\n\
+     100 30 0\n100 20 0\n100 50 0\n",
+];
+
 /// Configurations for `solve`.
 pub(crate) const TOML: &str = "# coarse\nuniform = 0.3\nstop = \"5%\"\nhemicube-resolution = 32\njson = true\n\
     output = [\"a.glb\", \"b.ply\"]\nimage = \"a.png\"\nsize = \"40x30\"\neye = [0.3, 0.3, -1]\n\

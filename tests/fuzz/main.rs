@@ -56,5 +56,6 @@ tests! {
     bent_gltf_files: GLTF;
     bent_glb_files: GLB;
     bent_configurations: TOML;
+    bent_luminaires: IES;
     bent_scenes_are_solved: SOLVED;
 }

@@ -7,6 +7,8 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use fastrand::Rng;
+use glam::DVec3;
+use radiosity::scene::{Light, NamedLight};
 use radiosity::{Length, Scene, Settings, reconstruct, solve, surfaces_of};
 
 use crate::asset::Asset;
@@ -23,6 +25,7 @@ pub(crate) const MTL: Target = Target { name: "mtl", quick: 300, files: mtl, che
 pub(crate) const GLTF: Target = Target { name: "gltf", quick: 600, files: gltf, check: load };
 pub(crate) const GLB: Target = Target { name: "glb", quick: 400, files: glb, check: load };
 pub(crate) const TOML: Target = Target { name: "toml", quick: 60, files: toml, check: configure };
+pub(crate) const IES: Target = Target { name: "ies", quick: 600, files: ies, check: shine };
 pub(crate) const SOLVED: Target = Target { name: "solved", quick: 60, files: any, check: light };
 
 fn with_picture(mut files: Files) -> Files {
@@ -99,6 +102,17 @@ fn toml(rng: &mut Rng) -> Files {
     vec![("c.toml".to_owned(), config)]
 }
 
+fn ies(rng: &mut Rng) -> Files {
+    let mut file = corpus::IES[rng.usize(..corpus::IES.len())].as_bytes().to_vec();
+    for _ in 0..often(rng) {
+        text(rng, &mut file);
+    }
+    if rng.u8(..6) == 0 {
+        bytes(rng, &mut file);
+    }
+    vec![("a.ies".to_owned(), file)]
+}
+
 fn any(rng: &mut Rng) -> Files {
     match rng.u8(..6) {
         0 => gltf(rng),
@@ -146,13 +160,38 @@ fn configure(folder: &Folder, name: &str) {
     assert!(!words.contains("panicked") && !words.is_empty(), "{words}");
 }
 
+/// A luminaire sends no less than nothing anywhere, and in all what its directions add up to.
+fn shine(folder: &Folder, name: &str) {
+    let mut scene = Scene::default();
+    if let Err(error) = scene.add_luminaire(&folder.path(name), DVec3::Y, 30.0) {
+        assert!(error.to_string().contains(name), "{error}");
+        return;
+    }
+    let [NamedLight { light: Light::Luminaire { photometry, .. }, .. }] = scene.lights.as_slice()
+    else {
+        panic!("{:?}", scene.lights)
+    };
+    let flux = photometry.flux();
+    assert!(flux.is_finite() && flux >= -1e-9, "{flux} lm");
+    let most = (0..200).map(|k| {
+        let (height, around) = (f64::from(k % 20) / 9.5 - 1.0, f64::from(k));
+        let out = (1.0 - height * height).max(0.0).sqrt();
+        let candela =
+            photometry.candela(DVec3::new(out * around.cos(), height, out * around.sin()));
+        assert!(candela.is_finite() && candela >= 0.0, "{candela} cd");
+        candela
+    });
+    let most = most.fold(0.0, f64::max);
+    assert!(most == 0.0 || flux > 0.0, "{most} cd and no light");
+}
+
 fn light(folder: &Folder, name: &str) {
     let Some(mut scene) = loaded(folder, name) else { return };
     if scene.faces.len() > MOST_FACES {
         return;
     }
     if !scene.is_lit() {
-        scene.materials[scene.faces[0].material as usize].emission = glam::DVec3::ONE;
+        scene.materials[scene.faces[0].material as usize].emission = DVec3::ONE;
     }
     let surfaces = surfaces_of(&scene);
     let settings = Settings {

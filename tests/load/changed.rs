@@ -101,6 +101,16 @@ fn a_file_of_materials_replaces_what_it_names() {
 }
 
 #[test]
+fn removed_materials_have_no_faces_and_a_note() {
+    let text = "[\"lamp 2\"]\nremoved = true\n[\"lamp*\"]\nemission = \"100lm\"\nremoved = false\n";
+    let scene = overridden(text).expect("the file is right");
+    assert!(scene.faces.len() == 1 && scene.faces[0].material == 0);
+    assert_eq!(scene.notes, ["1 face of \"lamp 2\" removed: open, not even glass"]);
+    let flux = scene.materials[0].emission.x * PI * 4.0 * LUMENS_PER_WATT;
+    assert!((flux - 100.0).abs() < 1e-9, "from what is left: {flux}");
+}
+
+#[test]
 fn wrong_lines_of_a_file_of_materials_are_named() {
     for (text, words) in [
         ("[lampe]\nemission = 1\n", ["m.toml:1", "no material \"lampe\""]),
@@ -109,6 +119,7 @@ fn wrong_lines_of_a_file_of_materials_are_named() {
         ("[\"lamp 1\"]\nreflectance = [1, 2]\n", ["m.toml:2", "three"]),
         ("[\"lamp 1\"]\nemission = \"800l\"\n", ["m.toml:2", "emission"]),
         ("[\"lamp 1\"]\nemission = -1\n", ["m.toml:2", "emission"]),
+        ("[\"lamp 1\"]\nremoved = 1\n", ["m.toml:2", "removed: write true or false"]),
         ("[\"lamp 1\"]\ndouble_sided = 1\n", ["m.toml:2", "true or false"]),
         ("[none]\nemission = \"1lm\"\n", ["m.toml:2", "on no face"]),
         ("\nemission = 1\n", ["m.toml:2", ""]),

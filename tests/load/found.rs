@@ -128,3 +128,56 @@ fn corners_apart_by_rounding_are_one() {
     assert_eq!(scene.positions.len(), 4);
     assert!(scene.notes[0].starts_with("2 corners moved"), "{:?}", scene.notes);
 }
+
+#[test]
+fn glass_is_left_out_and_what_is_half_clear_is_told() {
+    let with = |glass: serde_json::Value| {
+        let mut asset = Asset::triangle();
+        let mut second = asset.json["meshes"][0]["primitives"][0].clone();
+        asset.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+        second["material"] = json!(1);
+        asset.json["meshes"][0]["primitives"] =
+            json!([asset.json["meshes"][0]["primitives"][0], second]);
+        asset.json["materials"] = json!([{"name": "wall"}, glass]);
+        // The second triangle lies in the first one's place: what is left out is gone before that matters.
+        asset.load()
+    };
+    let colour =
+        |alpha: f64| json!({"baseColorFactor": [0.5, 0.5, 0.5, alpha], "metallicFactor": 0});
+    let transmission =
+        |factor: f64| json!({"KHR_materials_transmission": {"transmissionFactor": factor}});
+    for (glass, words) in [
+        (json!({"alphaMode": "BLEND", "pbrMetallicRoughness": colour(0.0)}), "left out"),
+        (json!({"alphaMode": "BLEND", "pbrMetallicRoughness": colour(0.3)}), "left out"),
+        (json!({"alphaMode": "MASK", "pbrMetallicRoughness": colour(0.3)}), "left out"),
+        (json!({"extensions": transmission(0.9)}), "left out"),
+        (json!({"alphaMode": "BLEND", "pbrMetallicRoughness": colour(0.8)}), "opaque"),
+        (json!({"extensions": transmission(0.4)}), "opaque"),
+        (json!({"extensions": transmission(0.9), "emissiveFactor": [1, 1, 1]}), "opaque"),
+    ] {
+        let mut glass = glass;
+        glass["name"] = json!("pane");
+        let notes = with(glass.clone()).notes;
+        let told = |note: &String| note.contains("\"pane\"") && note.contains(words);
+        assert!(notes.iter().any(told), "{glass}: {notes:?}");
+    }
+    let plain = with(json!({"name": "pane", "pbrMetallicRoughness": colour(0.0)}));
+    assert!(!plain.notes.iter().any(|note| note.contains("\"pane\"")));
+}
+
+#[test]
+fn transparent_materials_of_an_mtl_file_are_told_and_stay() {
+    let notes = |line: &str| {
+        let obj = format!("mtllib m.mtl\n{SQUARE}usemtl a b\nf 1 2 3 4\n");
+        let mtl = format!("newmtl a b\nKd 0.5\n{line}\n");
+        let scene = Folder::new().with("s.obj", obj).with("m.mtl", mtl).load("s.obj").unwrap();
+        assert_eq!(scene.faces.len(), 1);
+        scene.notes.join("\n")
+    };
+    for line in ["d 0.3", "Tr 0.7", "d -halo 0.5", "d 0"] {
+        assert!(notes(line).contains("taken as opaque: \"a b\""), "{line}: {}", notes(line));
+    }
+    for line in ["d 1", "Tr 0", "Tr 1", "Tr 0.5\nd 1", "d 1\nTr 0.5", "d x"] {
+        assert_eq!(notes(line), "", "{line}");
+    }
+}

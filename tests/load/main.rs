@@ -10,6 +10,7 @@ mod mutated;
 mod obj;
 mod refused;
 mod sides;
+mod up;
 
 use folder::{Folder, red_png};
 

@@ -1,7 +1,7 @@
 //! Rooms modelled from inside and from outside, and lamps that hang in them either way.
 
 use glam::DVec3;
-use radiosity::scene::{LoadOptions, Scene, Sides, load};
+use radiosity::scene::{Light, LoadOptions, Scene, Sides, Sky, load, settle_sides};
 
 use crate::Folder;
 
@@ -84,4 +84,42 @@ fn light_from_a_point_inside_a_solid_room_opens_backs() {
     assert!(behind.load().materials[0].double_sided);
     let before = behind.set("/nodes/1/translation", serde_json::json!([0.2, 0.2, 1]));
     assert!(!before.load().materials[0].double_sided);
+}
+
+/// A room of 4 × 3 × 5 m with a window of 2 × 1.5 m in the wall at x = 0, its faces inward or turned over.
+const WITH_WINDOW: &str = "v 0 0 0\nv 4 0 0\nv 4 0 5\nv 0 0 5\nv 0 3 0\nv 4 3 0\nv 4 3 5\nv 0 3 5\n\
+    v 0 1 1.5\nv 0 1 3.5\nv 0 2.5 3.5\nv 0 2.5 1.5\n";
+const AROUND_WINDOW: [&str; 4] = ["4 1 9 10", "1 5 12 9", "5 8 11 12", "8 4 10 11"];
+
+fn by_day(faces: &[String], light: Light) -> Scene {
+    let text = format!("{WITH_WINDOW}{}", faces.concat());
+    let folder = Folder::new().with("s.obj", text);
+    let mut scene = folder.load("s.obj").unwrap();
+    scene.lights.push(light.into());
+    settle_sides(&mut scene, Sides::Auto);
+    scene
+}
+
+#[test]
+fn daylight_in_a_room_modelled_inside_out_opens_backs() {
+    let sun = Light::sun(270.0, 40.0, 50_000.0);
+    for light in [Light::sky(Sky::Overcast, 10_000.0), sun] {
+        for turned in [false, true] {
+            let faces = WALLS[..5].iter().chain(&AROUND_WINDOW).map(|wall| face(wall, turned));
+            let scene = by_day(&faces.collect::<Vec<_>>(), light.clone());
+            assert_eq!(scene.materials[0].double_sided, turned, "{light:?} {:?}", scene.notes);
+            let told = scene.notes.iter().any(|note| note.contains("enters rooms from outside"));
+            assert_eq!(told, turned, "{:?}", scene.notes);
+        }
+    }
+}
+
+#[test]
+fn a_solid_on_a_plain_keeps_its_one_side_by_day() {
+    let mut faces: Vec<String> = WALLS.iter().map(|wall| face(wall, true)).collect();
+    faces.push("v -90 0 -90\nv -90 0 90\nv 90 0 90\nv 90 0 -90\nf -4 -3 -2 -1\n".to_owned());
+    for light in [Light::sky(Sky::Uniform, 10_000.0), Light::sun(200.0, 30.0, 50_000.0)] {
+        let scene = by_day(&faces, light);
+        assert!(scene.materials.iter().all(|material| !material.double_sided), "{:?}", scene.notes);
+    }
 }

@@ -12,7 +12,7 @@ use glam::DVec3;
 use radiosity::colour::{Rgb, luminance};
 use radiosity::reconstruct::Part;
 use radiosity::render::{Display, Picture, RenderOptions, View, automatic_camera, render, save};
-use radiosity::scene::{Camera, Texture};
+use radiosity::scene::{Camera, Light, Sky, Texture};
 use radiosity::{Error, TriMesh};
 
 /// Adds a parallelogram of `cells` × `cells` squares, seen from where `u` turns left to `v`.
@@ -99,6 +99,38 @@ fn radiosity_pi_is_radiance_one_and_the_rest_is_background() {
             assert!((radiance - expected).abs().max_element() < 1e-6, "{x} {y}: {radiance}");
         }
     }
+}
+
+#[test]
+fn the_sky_stands_behind_the_mesh_and_adds_up_to_its_irradiance() {
+    for sky in [Sky::Uniform, Sky::Overcast] {
+        let irradiance = Rgb::new(3.0, 2.0, 1.0);
+        let light = Light::Sky { sky, irradiance };
+        // ∫ L cos θ dω over the upper half, by rings of equal height.
+        let rings = 1000;
+        let ring = |k: i32| {
+            let y = (f64::from(k) + 0.5) / f64::from(rings);
+            let direction = DVec3::new((1.0 - y * y).sqrt(), y, 0.0);
+            light.radiance(direction) * y * 2.0 * PI / f64::from(rings)
+        };
+        let sum: Rgb = (0..rings).map(ring).sum();
+        assert!((sum - irradiance).abs().max_element() < 1e-5, "{sum}");
+        for (view, seen) in [(View::Light, true), (View::Radiosity, false)] {
+            let options = RenderOptions { view, sky: vec![light.clone().into()], ..small(40, 20) };
+            let picture = render(&square(3, PI), &camera_in_front(5.0), &options);
+            let [top, bottom] = [picture.values[0], picture.values[19 * 40]];
+            assert_eq!(top.x > 0.2, seen, "{top}");
+            assert!(bottom == glam::Vec3::ZERO, "{bottom}");
+            assert!((picture.values[10 * 40 + 20].x - 1.0).abs() < 1e-6);
+        }
+    }
+    let sun = Light::sun(90.0, 30.0, 50_000.0);
+    let Light::Sun { direction, irradiance } = sun else { panic!("{sun:?}") };
+    let half = 0.2666f64.to_radians();
+    let disc = sun.radiance(-direction) * PI * half.sin().powi(2);
+    assert!((disc / irradiance - Rgb::ONE).abs().max_element() < 1e-9);
+    let beside = (-direction + direction.any_orthonormal_vector() * 0.006).normalize();
+    assert_eq!(sun.radiance(beside), Rgb::ZERO);
 }
 
 #[test]

@@ -47,7 +47,7 @@ pub(crate) struct LightOptions {
 
     /// Let the sun shine: degrees clockwise from north (-Z; east is +X), degrees over the horizon, lux facing it
     ///
-    /// It is 0.53° wide, so shadows have borders. Without LUX, that of clear air: 127500 exp(-0.21 / sin elevation), 95 000 lx at 45°.
+    /// Of a file read with --up z, north is its +Y. It is 0.53° wide, so shadows have borders. Without LUX, that of clear air: 127500 exp(-0.21 / sin elevation), 95 000 lx at 45°.
     #[arg(long, value_name = "AZIMUTH,ELEVATION[,LUX]", value_parser = sun)]
     #[arg(allow_hyphen_values = true)]
     sun: Option<Light>,
@@ -58,9 +58,10 @@ pub(crate) struct LightOptions {
     #[arg(long, value_name = "KIND[,LUX]", value_parser = sky)]
     sky: Option<Light>,
 
-    /// Change materials as a TOML file says: ["wall*"] with reflectance, emission, `double_sided` below it
+    /// Change materials as a TOML file says: ["wall*"] with reflectance, emission, `double_sided`, removed below it
     ///
     /// `reflectance = 0.7` or `[0.7, 0.6, 0.5]`, `emission = "800lm"`, 15 or `[17, 12, 4]`. They replace textures.
+    /// `removed = true` leaves the faces out: open windows, without the glass that would keep some of the light.
     #[arg(long, value_name = "FILE.toml")]
     materials: Option<PathBuf>,
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use radiosity::scene::{LoadOptions, Sides, settle_sides};
+use radiosity::scene::{LoadOptions, Sides, Up, settle_sides};
 use radiosity::{Error, Result, Scene, load};
 
 use super::lights::{HINT, LightOptions};
@@ -23,16 +23,31 @@ pub(crate) struct SceneOptions {
     #[arg(help_heading = "Reading")]
     units: f64,
 
+    /// Which axis of an OBJ file points up
+    ///
+    /// With `z`, x,y,z of the file become x,z,-y when it is read: its +Y is -Z then, which is north for --sun. Lamps,
+    /// cameras and grids are given in the coordinates after that, with Y up. glTF has Y up always.
+    #[arg(long, value_name = "AXIS", value_enum, default_value_t = Axis::Y, help_heading = "Reading")]
+    up: Axis,
+
     /// Which sides of surfaces reflect and emit
     ///
-    /// The file says so (glTF `doubleSided`; OBJ: front sides only, with black backs), unless lamps would
-    /// shine on backs only: then `auto` turns faces over, or lights both sides, and says so.
+    /// The file says so (glTF `doubleSided`; OBJ: front sides only, with black backs), unless lamps, or
+    /// daylight in rooms, would shine on backs only: then `auto` turns faces over, or lights both sides, and says so.
     #[arg(long, value_name = "WHEN", value_enum, default_value_t = TwoSided::Auto)]
     #[arg(help_heading = "Reading")]
     two_sided: TwoSided,
 
     #[command(flatten)]
     lights: LightOptions,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Axis {
+    /// As in glTF, and what most exporters make of OBJ
+    Y,
+    /// As in Blender, and in most programs for buildings
+    Z,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -80,6 +95,10 @@ impl SceneOptions {
             TwoSided::Off => Sides::AsWritten,
             TwoSided::Flip => Sides::Flipped,
         };
-        LoadOptions { metres_per_unit: self.units, two_sided }
+        let up = match self.up {
+            Axis::Y => Up::Y,
+            Axis::Z => Up::Z,
+        };
+        LoadOptions { metres_per_unit: self.units, up, two_sided }
     }
 }

@@ -9,7 +9,7 @@ use radiosity::reconstruct::TriMesh;
 use radiosity::render::{
     Display, Picture, RenderOptions, Subject, View, automatic_camera, render_solved,
 };
-use radiosity::scene::Camera;
+use radiosity::scene::{Camera, NamedLight};
 use radiosity::tone::{Exposure, exposure_scale};
 use radiosity::{Error, Result};
 
@@ -172,17 +172,18 @@ impl PictureOptions {
         Ok(())
     }
 
-    /// One view of a mesh.
+    /// One view of a mesh, the skies and suns among some lights behind it.
     pub(crate) fn picture(
         &self,
         view: View,
         subject: Subject<'_>,
-        camera: &Camera,
+        (camera, sky): (&Camera, &[NamedLight]),
         observe: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Picture {
         let (Size { width, height }, final_gather) = (self.size, self.final_gather);
+        let sky = sky.to_vec();
         let options =
-            RenderOptions { view, width, height, final_gather, ..RenderOptions::default() };
+            RenderOptions { view, width, height, final_gather, sky, ..RenderOptions::default() };
         render_solved(subject, camera, &options, observe)
     }
 }

@@ -15,21 +15,34 @@ use crate::scene::notes::{listed, note_count};
 use crate::scene::texture::{Picture, UvMapping, attach_pictures, decode};
 use crate::scene::{Material, Scene};
 
-/// Reads all materials into `scene`; returns how each of them maps texture coordinates.
-pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Vec<UvMapping>> {
+/// What materials say that does not go into the scene's.
+#[derive(Default)]
+pub(super) struct Known {
+    /// How each of them maps texture coordinates.
+    pub(super) mappings: Vec<UvMapping>,
+    /// Indices of those that let most light through.
+    pub(super) clear: Vec<usize>,
+}
+
+/// Reads all materials into `scene`.
+pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Known> {
     let mut reader = Reader { file, scene, pictures: HashMap::new(), mirrored: 0 };
-    let mut mappings = Vec::new();
-    let (mut metals, mut clear) = (Vec::new(), Vec::new());
+    let mut known = Known::default();
+    let (mut metals, mut clear, mut dim) = (Vec::new(), Vec::new(), Vec::new());
     for (index, from) in file.root.materials.iter().enumerate() {
         let (material, mapping) = reader.material(index, from)?;
         if is_metal(from) {
             metals.push(material.name.clone());
         }
-        if from.alpha_mode != Checked::Valid(AlphaMode::Opaque) {
+        let through = let_through(from);
+        if through > MOSTLY_CLEAR && material.emission == Rgb::ZERO {
             clear.push(material.name.clone());
+            known.clear.push(index);
+        } else if through > 0.0 || from.alpha_mode != Checked::Valid(AlphaMode::Opaque) {
+            dim.push(material.name.clone());
         }
         reader.scene.materials.push(material);
-        mappings.push(mapping);
+        known.mappings.push(mapping);
     }
     let mirrored = reader.mirrored;
     note_count(&mut scene.notes, mirrored, "texture use", "repeated instead of mirrored");
@@ -39,9 +52,35 @@ pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Vec<UvMapping>> {
             .push(format!("metals taken as diffuse in their base colour: {}", listed(&metals)));
     }
     if !clear.is_empty() {
-        scene.notes.push(format!("alpha ignored, taken as opaque: {}", listed(&clear)));
+        let names = listed(&clear);
+        scene.notes.push(format!("left out, as they let most light through: {names}"));
     }
-    Ok(mappings)
+    if !dim.is_empty() {
+        scene.notes.push(format!("transparency ignored, taken as opaque: {}", listed(&dim)));
+    }
+    Ok(known)
+}
+
+/// What lets more light through is left out: that is nearer the truth than a wall.
+const MOSTLY_CLEAR: f64 = 0.5;
+
+/// Share of the light that a material lets through at least, by its factors alone: textures may let more through
+/// where alpha is meant, and less where transmission is.
+fn let_through(material: &json::Material) -> f64 {
+    let all = material.extensions.as_ref();
+    let glossy = all.and_then(|all| all.pbr_specular_glossiness.as_ref());
+    let base = &material.pbr_metallic_roughness.base_color_factor.0;
+    let alpha = f64::from(glossy.map_or(base[3], |glossy| glossy.diffuse_factor.0[3]));
+    let cutoff = material.alpha_cutoff.map_or(0.5, |cutoff| f64::from(cutoff.0));
+    let covered = match material.alpha_mode {
+        Checked::Valid(AlphaMode::Blend) => alpha.clamp(0.0, 1.0),
+        Checked::Valid(AlphaMode::Mask) if alpha < cutoff => 0.0,
+        _ => 1.0,
+    };
+    let glass = all.and_then(|all| all.others.get("KHR_materials_transmission"));
+    let glass = glass.filter(|glass| glass.get("transmissionTexture").is_none());
+    let factor = glass.and_then(|glass| glass.get("transmissionFactor")?.as_f64());
+    1.0 - covered * (1.0 - factor.unwrap_or(0.0).clamp(0.0, 1.0))
 }
 
 /// A metallic factor under a metallic-roughness picture, or beside gloss, says nothing by itself.

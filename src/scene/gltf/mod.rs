@@ -19,12 +19,13 @@ use crate::error::Result;
 pub(super) fn read(path: &Path) -> Result<Scene> {
     let file = File::open(path)?;
     let mut scene = Scene::default();
-    let mappings = materials::read(&file, &mut scene)?;
+    let materials::Known { mappings, clear } = materials::read(&file, &mut scene)?;
     let mut import =
         Import { file: &file, scene, mappings, fallback: None, skipped: Skipped::default() };
     import.add_nodes()?;
     import.note_skipped();
     import.note_extensions();
+    import.scene.leave_out(&clear);
     Ok(import.scene)
 }
 

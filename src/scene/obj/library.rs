@@ -30,6 +30,8 @@ pub(super) struct Library {
     fallback: Option<Use>,
     /// Names of the materials without a reflectance.
     colourless: Vec<String>,
+    /// Names of those that let light through.
+    transparent: Vec<String>,
 }
 
 impl Library {
@@ -56,6 +58,12 @@ impl Library {
             let names = listed(&library.colourless);
             scene.notes.push(format!("no Kd in {names}; grey of reflectance 0.5 is used"));
         }
+        if !library.transparent.is_empty() {
+            let names = listed(&library.transparent);
+            scene.notes.push(format!(
+                "transparency ignored, taken as opaque: {names}; --materials with `removed = true` leaves faces out"
+            ));
+        }
         library
     }
 
@@ -64,6 +72,9 @@ impl Library {
         let emission_map = from.emission_map.and_then(|map| self.picture(file, &map, scene));
         if from.reflectance.is_none() && reflectance_map.is_none() {
             self.colourless.push(from.name.clone());
+        }
+        if from.transparent {
+            self.transparent.push(from.name.clone());
         }
         let unsaid =
             if reflectance_map.is_some() { Rgb::ONE } else { Material::default().reflectance };
@@ -95,7 +106,7 @@ impl Library {
         Some(Picture { texture, mapping: UvMapping { set: 0, transform: from_bottom_left(map) } })
     }
 
-    /// The uses of the materials in `names`; unknown ones fall back on the default with a note.
+    /// The uses of the materials in `names`; unknown ones look like the default, under their own name, with a note.
     pub(super) fn resolve(
         &mut self,
         path: &Path,
@@ -109,7 +120,7 @@ impl Library {
             uses.push(used.unwrap_or_else(|| {
                 first = if unknown.is_empty() { *line } else { first };
                 unknown.push(name.clone());
-                self.fallback(scene)
+                added(scene, Material { name: name.clone(), ..Material::default() })
             }));
         }
         if !unknown.is_empty() {
@@ -124,12 +135,14 @@ impl Library {
 
     /// The default material, added to the scene on its first use.
     pub(super) fn fallback(&mut self, scene: &mut Scene) -> Use {
-        *self.fallback.get_or_insert_with(|| {
-            scene.materials.push(Material::default());
-            let material = scene.materials.len() as u32 - 1;
-            Use { material, mapping: UvMapping::default() }
-        })
+        *self.fallback.get_or_insert_with(|| added(scene, Material::default()))
     }
+}
+
+/// A material without pictures, added to the scene.
+fn added(scene: &mut Scene, material: Material) -> Use {
+    scene.materials.push(material);
+    Use { material: scene.materials.len() as u32 - 1, mapping: UvMapping::default() }
 }
 
 /// One file with spaces in its name, or several files: whichever exists.

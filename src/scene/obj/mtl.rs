@@ -19,6 +19,10 @@ pub(super) struct MtlMaterial {
     pub(super) reflectance_map: Option<Map>,
     /// `map_Ke`.
     pub(super) emission_map: Option<Map>,
+    /// True if `d` or, without it, `Tr` says that light comes through.
+    pub(super) transparent: bool,
+    /// True if `d` has been read.
+    has_opacity: bool,
 }
 
 /// A picture as a `map_` line names it.
@@ -47,11 +51,24 @@ pub(super) fn parse(path: &Path, text: &str, notes: &mut Vec<String>) -> Vec<Mtl
     materials
 }
 
+/// Opacities above this are 1.
+const OPAQUE: f64 = 0.99;
+
 fn set(material: &mut MtlMaterial, word: &str, rest: &str) -> Result<(), String> {
     match word.to_ascii_lowercase().as_str() {
         "kd" => material.reflectance = Some(colour(rest)?),
         "ke" => material.emission = Some(colour(rest)?),
         "map_kd" => material.reflectance_map = Some(map(rest)?),
+        "d" => {
+            let opacity = numbers(rest.trim_start_matches("-halo"));
+            material.transparent = opacity.is_ok_and(|x| x.first().is_some_and(|&d| d < OPAQUE));
+            material.has_opacity = true;
+        }
+        // Some exporters mean `d` by it, so 1 may be either.
+        "tr" if !material.has_opacity => {
+            let clear = numbers(rest).ok().and_then(|x| x.first().copied()).unwrap_or(0.0);
+            material.transparent = clear > 1.0 - OPAQUE && clear < OPAQUE;
+        }
         "map_ke" => material.emission_map = Some(map(rest)?),
         _ => {}
     }
