@@ -110,10 +110,7 @@ impl Solve {
         self.warn_of_nothing(&meter);
 
         let (mut scene, camera) = self.read(&mut meter)?;
-        meter.begin("surfaces");
-        let surfaces = surfaces_of(&scene);
-        surfaces.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
-        scene.notes.extend_from_slice(&surfaces.notes);
+        let surfaces = surfaces(&mut scene, &mut meter);
         let places = self.grid.places(&surfaces)?;
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
         settings.validate_for(surfaces.area(), surfaces.extent)?;
@@ -264,6 +261,15 @@ impl Solve {
         }
         Ok(())
     }
+}
+
+/// The surfaces of a scene; what there is to be told of them is told, and stands among the scene's notes.
+fn surfaces(scene: &mut Scene, meter: &mut Meter) -> Surfaces {
+    meter.begin("surfaces");
+    let surfaces = surfaces_of(scene);
+    surfaces.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
+    scene.notes.extend_from_slice(&surfaces.notes);
+    surfaces
 }
 
 fn tell_if_full(solution: &Solution, meter: &Meter) {

@@ -81,7 +81,7 @@ impl Scene {
             ("double_sided", &Value::Boolean(both)) => {
                 each(&|material| material.double_sided = both);
             }
-            ("removed", &Value::Boolean(true)) => self.remove(named),
+            ("removed", &Value::Boolean(true)) => self.remove(named)?,
             ("removed", &Value::Boolean(false)) => (),
             ("removed", _) => return Err("removed: write true or false".to_owned()),
             ("double_sided", _) => return Err("double_sided: write true or false".to_owned()),
@@ -94,11 +94,12 @@ impl Scene {
     }
 
     /// Leaves out the faces of some materials.
-    fn remove(&mut self, named: &[usize]) {
+    fn remove(&mut self, named: &[usize]) -> std::result::Result<(), String> {
         let names: Vec<String> =
             named.iter().map(|&number| self.materials[number].name.clone()).collect();
         let count = counted(self.leave_out(named), "face");
         self.notes.push(format!("{count} of {} removed: open, not even glass", listed(&names)));
+        if self.faces.is_empty() { Err("removed: no face is left".to_owned()) } else { Ok(()) }
     }
 }
 

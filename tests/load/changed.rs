@@ -119,6 +119,7 @@ fn wrong_lines_of_a_file_of_materials_are_named() {
         ("[\"lamp 1\"]\nreflectance = [1, 2]\n", ["m.toml:2", "three"]),
         ("[\"lamp 1\"]\nemission = \"800l\"\n", ["m.toml:2", "emission"]),
         ("[\"lamp 1\"]\nemission = -1\n", ["m.toml:2", "emission"]),
+        ("[\"*\"]\nremoved = true\n", ["m.toml:2", "no face is left"]),
         ("[\"lamp 1\"]\nremoved = 1\n", ["m.toml:2", "removed: write true or false"]),
         ("[\"lamp 1\"]\ndouble_sided = 1\n", ["m.toml:2", "true or false"]),
         ("[none]\nemission = \"1lm\"\n", ["m.toml:2", "on no face"]),

@@ -67,6 +67,7 @@ fn parse(path: &Path, scan: &Scan) -> Result<tobj::Mesh> {
 fn note_ignored(scan: &Scan, notes: &mut Vec<String>) {
     note_count(notes, scan.loose, "point-or-line element", "ignored");
     note_count(notes, scan.free_form, "free-form element", "ignored");
+    note_count(notes, scan.unused(), "position", "that no face uses ignored");
     note_count(notes, scan.coloured, "vertex colour", "ignored");
 }
 

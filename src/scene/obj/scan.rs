@@ -1,6 +1,6 @@
 //! A first pass over an OBJ file: finds errors with their lines, and what the parser leaves out.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
 use std::iter::repeat;
 use std::path::Path;
@@ -27,6 +27,8 @@ pub(super) struct Scan {
     pub(super) loose: usize,
     /// Free-form curves and surfaces.
     pub(super) free_form: usize,
+    /// Indices of the positions that polygons use.
+    used: HashSet<usize>,
     /// Vertices with a colour.
     pub(super) coloured: usize,
     /// Where in `materials` a name is.
@@ -80,6 +82,11 @@ pub(super) fn scan(path: &Path, text: &str) -> Result<Scan> {
 }
 
 impl Scan {
+    /// Number of positions that no polygon uses.
+    pub(super) fn unused(&self) -> usize {
+        self.counts[0] - self.used.len()
+    }
+
     fn line(&mut self, state: &mut State, number: usize, line: &str) -> LineResult<()> {
         let (word, rest) = keyword(line);
         match word {
@@ -171,6 +178,7 @@ impl Scan {
         });
         self.polygons.push('f');
         for [position, uv, normal] in corners {
+            self.used.insert(position);
             let blank = |index: usize| if index == 0 { String::new() } else { index.to_string() };
             // Writing to a string cannot fail.
             let _ = write!(self.polygons, " {position}/{}/{}", blank(uv), blank(normal));
