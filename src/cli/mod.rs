@@ -12,6 +12,7 @@ mod form_factors;
 mod grid;
 mod info;
 mod interrupt;
+mod lightmap;
 mod meter;
 mod options;
 mod outputs;

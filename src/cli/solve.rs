@@ -17,6 +17,7 @@ use super::estimate::Estimate;
 use super::failure::Failure;
 use super::grid::GridOptions;
 use super::interrupt::Interrupt;
+use super::lightmap::LightmapOptions;
 use super::meter::Meter;
 use super::options::{
     AccuracyOptions, CameraChoice, HINT, LimitOptions, PictureOptions, ReportOptions, SceneOptions,
@@ -57,6 +58,9 @@ pub(crate) struct Solve {
     history: Option<PathBuf>,
 
     #[command(flatten)]
+    lightmap: LightmapOptions,
+
+    #[command(flatten)]
     grid: GridOptions,
 
     #[command(flatten)]
@@ -88,6 +92,7 @@ Examples:
   radiosity solve room.glb -o room-lit.ply --image mesh.png --view wireframe --tolerance 1.5%
   radiosity solve kitchen.obj --image final.png --image mesh.png --view light,reason --final-gather
   radiosity solve scenes/office.obj --quality draft --html office.html --snapshots 1,2,24,100
+  radiosity solve scenes/office.obj --quality draft --lightmap office.glb --lightmap-size 2048
   radiosity solve scenes/bare-room.obj --emit 'lamp*=800lm' --sky cie-overcast --image lit.png
   radiosity solve room.obj --ies spot.ies@2,2.6,3 --grid 0.75,0.5 --grid-csv desk.csv
   radiosity solve scenes/blocker.obj --uniform 0.1 --image uniform.png --eye 1,2,3 --target 0,0,0";
@@ -106,6 +111,7 @@ impl Solve {
         meter.begin("surfaces");
         let surfaces = surfaces_of(&scene);
         let places = self.grid.places(&surfaces)?;
+        let atlas = self.lightmap.atlas(&surfaces)?;
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
         settings.validate_for(surfaces.area(), surfaces.extent)?;
         self.announce((&surfaces, &settings), &settings_record, &meter);
@@ -128,6 +134,7 @@ impl Solve {
         let solved = Solved { surfaces: &surfaces, settings: &settings, solution: &solution };
         let subject = Subject { mesh: &mesh, solved: Some(solved) };
         self.write_meshes(&subject, &stamp, &mut meter)?;
+        self.lightmap.write(atlas.as_ref(), (solved, &mesh), &stamp, &mut meter)?;
         self.write_pictures(subject, (&camera, exposure), &interrupt, &mut meter)?;
         if let Some(path) = &self.history {
             export::save_history(&solution.history, path)?;
@@ -152,7 +159,7 @@ impl Solve {
             grid,
             settings: settings_record,
             seconds: meter.into_timings(),
-            written: self.written().cloned().collect(),
+            written: self.written().collect(),
             notes: scene.notes,
         })
     }
@@ -184,6 +191,7 @@ impl Solve {
     fn check(&self) -> Result<(), Failure> {
         let tables: Vec<&Path> = self.tables().map(PathBuf::as_path).collect();
         outputs::check(&self.scene.path, &self.output, &self.image, &tables)?;
+        outputs::check_lightmap(&self.scene.path, &self.lightmap, [&self.output, &self.image])?;
         self.page.check()?;
         self.picture.views(&self.image)?;
         Ok(())
@@ -196,9 +204,10 @@ impl Solve {
     }
 
     /// The files to write.
-    fn written(&self) -> impl Iterator<Item = &PathBuf> {
+    fn written(&self) -> impl Iterator<Item = PathBuf> {
         let meshes_and_pictures = self.output.iter().chain(&self.image);
-        meshes_and_pictures.chain(self.tables()).chain(&self.page.html)
+        let all = meshes_and_pictures.chain(self.tables()).chain(&self.page.html);
+        all.cloned().chain(self.lightmap.files())
     }
 
     fn tables(&self) -> impl Iterator<Item = &PathBuf> {

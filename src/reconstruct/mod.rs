@@ -22,8 +22,11 @@ use crate::surface::{Surfaces, Weld};
 pub use angles::Angles;
 pub use trimesh::{Irradiance, Part, TriMesh};
 
+pub(crate) use normal::normal_at;
+pub(crate) use stitch::Places;
+pub(crate) use triangulate::triangulate;
+
 use sheet::Sheet;
-use stitch::Places;
 
 /// The triangle mesh of a solution.
 pub fn reconstruct(surfaces: &Surfaces, solution: &Solution) -> TriMesh {
