@@ -3,6 +3,9 @@
 //! Light is linear on a triangle, so its mean over a texel is found exactly: the triangle is cut along
 //! the borders of texels, and each piece counts by its area. A texel that surfaces cover in part has
 //! the mean of that part.
+//!
+//! What lies under a box has no light at all. A texel half under it has that of the other half, and
+//! [`PADDING`] texels more hold it, too: else a dark line would run around all that stands on a floor.
 
 use std::f64::consts::PI;
 
@@ -10,8 +13,8 @@ use glam::{DVec2, UVec2, Vec3};
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
-use super::dilate::dilate;
-use super::{Atlas, Chart, Lightmap};
+use super::dilate::{Texel, dilate};
+use super::{Atlas, Chart, Lightmap, PADDING};
 use crate::colour::Rgb;
 use crate::reconstruct::TriMesh;
 use crate::solver::Solution;
@@ -20,6 +23,9 @@ use crate::surface::polygon::{area, centroid};
 
 /// Share of a texel below which it counts as not covered: what rounding leaves of pieces.
 const NOTHING: f64 = 1e-9;
+
+/// Share of the brightest light below which there is none: what rounding sends under a box.
+const DARKNESS: f64 = 1e-9;
 
 /// A piece of a triangle: seven corners at most, after cuts along four lines.
 type Piece = SmallVec<[DVec2; 8]>;
@@ -36,9 +42,22 @@ pub fn bake<'a>(
         let surface = solution.mesh.surface_of(leaf);
         triangles[atlas.chart_of[surface] as usize].push(*triangle);
     }
-    let charts = atlas.charts.par_iter().zip(&triangles);
-    let blocks: Vec<Vec<Vec3>> =
-        charts.map(|(chart, triangles)| filled(chart, mesh, triangles)).collect();
+    let light: Vec<Rgb> = mesh
+        .irradiance
+        .iter()
+        .map(|irradiance| (irradiance.direct + irradiance.indirect).max(Rgb::ZERO) / PI)
+        .collect();
+    let darkness = DARKNESS * light.iter().map(|light| light.max_element()).fold(0.0, f64::max);
+    let fill = |(chart, triangles): (&Chart, &Vec<[u32; 3]>)| {
+        let mut sums = Sums::new(chart.texels, darkness);
+        for triangle in triangles {
+            let place = |corner: u32| chart.texel(mesh.positions[corner as usize]);
+            let corners = triangle.map(|corner| place(corner) - chart.corner.as_dvec2());
+            sums.add(corners, triangle.map(|corner| light[corner as usize]));
+        }
+        filled(sums.means(), chart.texels)
+    };
+    let blocks: Vec<Vec<Vec3>> = atlas.charts.par_iter().zip(&triangles).map(fill).collect();
 
     let size = atlas.size as usize;
     let mut texels = vec![Vec3::ZERO; size * size];
@@ -52,31 +71,33 @@ pub fn bake<'a>(
     Lightmap { surfaces, atlas, texels }
 }
 
-/// The texels of a chart's rectangle, row by row.
-fn filled(chart: &Chart, mesh: &TriMesh, triangles: &[[u32; 3]]) -> Vec<Vec3> {
-    let mut sums = Sums::new(chart.texels);
-    for triangle in triangles {
-        let corners = triangle
-            .map(|corner| chart.texel(mesh.positions[corner as usize]) - chart.corner.as_dvec2());
-        let light = triangle.map(|corner| {
-            let irradiance = &mesh.irradiance[corner as usize];
-            (irradiance.direct + irradiance.indirect).max(Rgb::ZERO) / PI
-        });
-        sums.add(corners, light);
+/// The texels of a chart's rectangle, row by row, each with some light.
+fn filled(mut texels: Vec<Texel>, size: UVec2) -> Vec<Vec3> {
+    let dark: Vec<usize> =
+        (0..texels.len()).filter(|&texel| texels[texel] == Texel::Dark).collect();
+    dilate(&mut texels, size, (Texel::Dark, PADDING));
+    for texel in dark {
+        if texels[texel] == Texel::Dark {
+            texels[texel] = Texel::Lit(Vec3::ZERO);
+        }
     }
-    dilate(sums.means(), chart.texels)
+    dilate(&mut texels, size, (Texel::Outside, u32::MAX));
+    texels.into_iter().map(|texel| texel.light().unwrap_or_default()).collect()
 }
 
 /// Light over texels, summed.
 struct Sums {
     texels: UVec2,
-    /// Light times area, and area, texels.
-    sums: Vec<(Rgb, f64)>,
+    /// Light below which there is none, W/(m² sr).
+    darkness: f64,
+    /// Light times area, area that has light, and all area, texels.
+    sums: Vec<(Rgb, f64, f64)>,
 }
 
 impl Sums {
-    fn new(texels: UVec2) -> Self {
-        Self { texels, sums: vec![(Rgb::ZERO, 0.0); (texels.x * texels.y) as usize] }
+    fn new(texels: UVec2, darkness: f64) -> Self {
+        let count = (texels.x * texels.y) as usize;
+        Self { texels, darkness, sums: vec![(Rgb::ZERO, 0.0, 0.0); count] }
     }
 
     /// Adds a triangle, given in texels, with light at its corners.
@@ -97,19 +118,24 @@ impl Sums {
     fn add_piece(&mut self, texel: usize, piece: &Piece, field: &Field) {
         let covered = area(piece).abs();
         if piece.len() > 2 && covered > 0.0 {
-            let (light, share) = &mut self.sums[texel];
-            *light += field.at(centroid(piece)) * covered;
-            *share += covered;
+            let (light, lit, all) = &mut self.sums[texel];
+            *all += covered;
+            if field.range[1].max_element() > self.darkness {
+                *light += field.at(centroid(piece)) * covered;
+                *lit += covered;
+            }
         }
     }
 
-    /// The mean light of each texel that is covered.
-    fn means(self) -> Vec<Option<Vec3>> {
-        let mean = |(light, share): (Rgb, f64)| {
-            (share > NOTHING).then(|| {
+    /// The mean light of each texel, as far as it has any.
+    fn means(self) -> Vec<Texel> {
+        let mean = |(light, lit, all): (Rgb, f64, f64)| match (lit > NOTHING, all > NOTHING) {
+            (true, _) => {
                 let brightest = Rgb::splat(f64::from(f32::MAX));
-                (light / share).min(brightest).as_vec3()
-            })
+                Texel::Lit((light / lit).min(brightest).as_vec3())
+            }
+            (false, true) => Texel::Dark,
+            (false, false) => Texel::Outside,
         };
         self.sums.into_iter().map(mean).collect()
     }
