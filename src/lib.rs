@@ -13,7 +13,7 @@
 //! | [`reconstruct()`] → [`TriMesh`] | radiosity at the vertices of a conforming triangulation |
 //! | [`solver::read`] → [`solver::Reading`]s | illuminance at any places, on a [`solver::WorkPlane`] for one |
 //! | [`form_factor::assemble`] → [`form_factor::FormFactors`] | beside all that: the matrix itself, of patches by whole faces ([`faces_of`]) or surfaces |
-//! | [`lightmap::Atlas`] → [`lightmap::bake`] | the same light as a picture, on a mesh as coarse as the surfaces |
+//! | [`lightmap::Atlas`] → [`lightmap::bake()`] | the same light as a picture, on a mesh as coarse as the surfaces |
 //! | [`export::save`], [`render::render`] | files for others, pictures |
 //! | [`page::viewer()`] and others, [`page::document()`] | pages to share, with the mesh to turn in them |
 //! | [`compare::compare`] → [`compare::Comparison`] | errors and costs of uniform and adaptive meshes, and a verdict |

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use radiosity::export::{Stamp, check_writable_lightmap, lightmap_files, save_lightmap};
 use radiosity::lightmap::{Atlas, SIZES, bake};
-use radiosity::render::Solved;
-use radiosity::{Result, Surfaces, TriMesh};
+use radiosity::render::{Solved, Subject};
+use radiosity::{Result, Surfaces};
 
 use super::meter::Meter;
 
@@ -18,8 +18,8 @@ pub(crate) struct LightmapOptions {
     ///
     /// FILE.glb has second texture coordinates for the maps, and materials with the surfaces' own colours,
     /// pictures and emission. FILE.lightmap.exr holds linear light, irradiance by π: what is seen is
-    /// albedo × texel + emission, in W/(m² sr). FILE.lightmap.png is the same exposed as COLOR_0 of other
-    /// outputs is, sRGB.
+    /// albedo × texel + emission, in W/(m² sr). FILE.lightmap.png is the same exposed as the colours of other
+    /// outputs are, sRGB.
     #[arg(long, value_name = "FILE.glb")]
     pub(crate) lightmap: Option<PathBuf>,
 
@@ -49,14 +49,17 @@ impl LightmapOptions {
     pub(crate) fn write(
         &self,
         atlas: Option<&Atlas>,
-        (solved, mesh): (Solved<'_>, &TriMesh),
+        subject: &Subject<'_>,
         stamp: &Stamp,
         meter: &mut Meter,
     ) -> Result<()> {
-        let (Some(path), Some(atlas)) = (&self.lightmap, atlas) else { return Ok(()) };
+        let wanted = self.lightmap.as_ref().zip(atlas).zip(subject.solved);
+        let Some(((path, atlas), Solved { surfaces, solution, .. })) = wanted else {
+            return Ok(());
+        };
         meter.begin("lightmap");
-        let map = bake(solved.surfaces, atlas, solved.solution, mesh);
-        save_lightmap(&map, mesh, path, stamp)?;
+        let map = bake(surfaces, atlas, solution, subject.mesh);
+        save_lightmap(&map, subject.mesh, path, stamp)?;
         let (charts, density) = (atlas.charts.len(), atlas.density);
         meter.tell(&format!("lightmap of {charts} charts, {density:.1} texels to a metre"));
         Ok(())

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use radiosity::colour::Rgb;
 use radiosity::export::{self, Stamp};
+use radiosity::lightmap::Atlas;
 use radiosity::mesh::Direct;
 use radiosity::render::{self, Solved, Subject};
 use radiosity::solver::Stop;
@@ -133,8 +134,7 @@ impl Solve {
         };
         let solved = Solved { surfaces: &surfaces, settings: &settings, solution: &solution };
         let subject = Subject { mesh: &mesh, solved: Some(solved) };
-        self.write_meshes(&subject, &stamp, &mut meter)?;
-        self.lightmap.write(atlas.as_ref(), (solved, &mesh), &stamp, &mut meter)?;
+        self.write_meshes(&subject, atlas.as_ref(), &stamp, &mut meter)?;
         self.write_pictures(subject, (&camera, exposure), &interrupt, &mut meter)?;
         if let Some(path) = &self.history {
             export::save_history(&solution.history, path)?;
@@ -226,6 +226,7 @@ impl Solve {
     fn write_meshes(
         &self,
         subject: &Subject<'_>,
+        atlas: Option<&Atlas>,
         stamp: &Stamp,
         meter: &mut Meter,
     ) -> Result<(), Failure> {
@@ -235,6 +236,7 @@ impl Solve {
         for path in &self.output {
             export::save(subject.mesh, path, stamp)?;
         }
+        self.lightmap.write(atlas, subject, stamp, meter)?;
         Ok(())
     }
 

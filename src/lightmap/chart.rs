@@ -1,6 +1,6 @@
 //! A part of an atlas: surfaces, projected on one plane.
 
-use glam::{DVec2, DVec3, UVec2};
+use glam::{DVec2, DVec3, UVec2, Vec2Swizzles};
 
 use super::coarse::Sheet;
 use super::{BLOCK, PADDING};
@@ -72,6 +72,13 @@ impl Chart {
         texels.as_uvec2().map(|side| side.saturating_add(2 * PADDING).div_ceil(BLOCK))
     }
 
+    /// A quarter turn about its normal.
+    pub(super) fn turn(&mut self) {
+        let Plane { origin, u, v, normal } = self.plane;
+        self.plane = Plane { origin: origin + u * self.sides.x, u: v, v: -u, normal };
+        self.sides = self.sides.yx();
+    }
+
     /// Gives the chart its place.
     pub(super) fn put(&mut self, corner: UVec2, density: f64) {
         self.corner = corner * BLOCK;
@@ -90,6 +97,10 @@ impl Chart {
 /// an outline, and that rectangle's sides, m.
 fn framed(plane: &Plane, direction: DVec3, outline: &[[DVec3; 2]]) -> (Plane, DVec2) {
     let plane = Plane::new(plane.origin, plane.normal, direction);
+    // A surface can be too small to have an outline of places that differ.
+    if outline.is_empty() {
+        return (plane, DVec2::ZERO);
+    }
     let places: Vec<DVec2> = outline.iter().map(|edge| plane.flatten(edge[0])).collect();
     let [low, high] = bounds(&places);
     (Plane { origin: plane.lift(low), ..plane }, high - low)

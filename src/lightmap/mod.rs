@@ -1,7 +1,7 @@
 //! Light as a picture laid on a coarse mesh: for engines that want maps rather than many vertices.
 //!
 //! [`Atlas::new`] cuts the surfaces into *charts*, each a part of a square picture, and triangulates them
-//! as coarsely as their outlines allow; that needs no light yet. [`bake`] fills the picture.
+//! as coarsely as their outlines allow; that needs no light yet. [`bake()`] fills the picture.
 //!
 //! A texel holds E/π, W/(m² sr): the radiance that a white diffuse surface there would send on. So
 //! what is seen of a surface is albedo × texel + emission, whatever its albedo's picture.

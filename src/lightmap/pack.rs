@@ -20,35 +20,47 @@ pub(super) fn pack(charts: &mut [Chart], size: u32) -> Option<f64> {
     for _ in 0..HALVINGS {
         let density = (low * high).sqrt();
         match packed(charts, density, blocks) {
-            Some(corners) => {
+            Some(places) => {
                 low = density;
-                best = (density, corners);
+                best = (density, places);
             }
             None => high = density,
         }
     }
-    let (density, corners) = best;
-    for (chart, corner) in charts.iter_mut().zip(corners) {
+    let (density, places) = best;
+    for (chart, Place { corner, is_turned }) in charts.iter_mut().zip(places) {
+        if is_turned {
+            chart.turn();
+        }
         chart.put(corner, density);
     }
     Some(density)
 }
 
-/// The first block of each chart's rectangle, if all fit.
-fn packed(charts: &[Chart], density: f64, blocks: u32) -> Option<Vec<UVec2>> {
+/// Where a rectangle has come to lie.
+#[derive(Clone, Copy, Default)]
+struct Place {
+    /// Its first block.
+    corner: UVec2,
+    is_turned: bool,
+}
+
+/// The places of the charts' rectangles, if all fit.
+fn packed(charts: &[Chart], density: f64, blocks: u32) -> Option<Vec<Place>> {
     let sizes: Vec<UVec2> = charts.iter().map(|chart| chart.blocks(density)).collect();
     let area: u64 = sizes.iter().map(|size| u64::from(size.x) * u64::from(size.y)).sum();
     if area > u64::from(blocks) * u64::from(blocks) {
         return None;
     }
     let item = |(number, size): (usize, &UVec2)| {
-        Item::new(number, size.x as usize, size.y as usize, Rotation::None)
+        Item::new(number, size.x as usize, size.y as usize, Rotation::Allowed)
     };
     let square = Rect::of_size(blocks as usize, blocks as usize);
     let packed = crunch::pack(square, sizes.iter().enumerate().map(item)).ok()?;
-    let mut corners = vec![UVec2::ZERO; charts.len()];
+    let mut places = vec![Place::default(); charts.len()];
     for item in packed {
-        corners[item.data] = UVec2::new(item.rect.x as u32, item.rect.y as u32);
+        let corner = UVec2::new(item.rect.x as u32, item.rect.y as u32);
+        places[item.data] = Place { corner, is_turned: item.rect.w as u32 != sizes[item.data].x };
     }
-    Some(corners)
+    Some(places)
 }

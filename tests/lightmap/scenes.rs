@@ -87,20 +87,19 @@ pub(crate) fn ball([around, down]: [usize; 2]) -> Scene {
     let out = |row: usize, column: usize| {
         let (tilt, turn) =
             (PI * row as f64 / down as f64, TAU * (column % around) as f64 / around as f64);
-        let ring = if row % down == 0 { 0.0 } else { tilt.sin() };
+        let ring = if row.is_multiple_of(down) { 0.0 } else { tilt.sin() };
         DVec3::new(ring * turn.cos(), tilt.cos(), -ring * turn.sin())
     };
     for row in 0..down {
         for column in 0..around {
             let [a, b] = [out(row, column), out(row, column + 1)];
             let [c, d] = [out(row + 1, column + 1), out(row + 1, column)];
-            let triangles = [[a, d, c], [a, c, b]];
-            for normals in triangles.into_iter().filter(|[_, x, y]| x != y && y != &a) {
-                if normals[0] == normals[1] || normals[0] == normals[2] {
-                    continue;
+            for normals in [[a, d, c], [a, c, b]] {
+                let [x, y, z] = normals;
+                if x != y && y != z && z != x {
+                    let face = stage.polygon(grey, &normals.map(|n| DVec3::Y * 1.5 + n * 0.5));
+                    face.normals = normals.iter().map(|n| n.as_vec3()).collect();
                 }
-                let face = stage.polygon(grey, &normals.map(|n| DVec3::Y * 1.5 + n * 0.5));
-                face.normals = normals.iter().map(|n| n.as_vec3()).collect();
             }
         }
     }
