@@ -21,6 +21,9 @@ const CODES = 1;
 const DIFFUSE = 0.01;
 const GLOSSY = 0.03;
 
+// Least correlation of pictures by the exposed map and the linear one, which a map laid on wrongly has not.
+const AGREEMENT = 0.8;
+
 function library() {
   const directory = process.env.THREE_DIR ?? join(homedir(), ".cache", "three");
   const found = join(directory, "node_modules", "three");
@@ -82,7 +85,7 @@ async function vertices(page, scene, directory) {
 }
 
 async function lightmap(page, scene, directory) {
-  const { meshes, glossy, diffuse, shades } = await page.evaluate((scene) => mapLight(scene), scene);
+  const { meshes, glossy, diffuse, shades, agreement } = await page.evaluate((scene) => mapLight(scene), scene);
   counted(meshes, join(directory, `${scene.name}-map.glb`));
   for (const { attributes, material } of meshes) {
     must(attributes.includes("uv1"), `no uv1 in ${attributes}`);
@@ -91,7 +94,8 @@ async function lightmap(page, scene, directory) {
   must(shades > 200, `only ${shades} colours`);
   const percent = (share) => `${(100 * share).toFixed(2)} %`;
   must(glossy < GLOSSY && diffuse < DIFFUSE, `radiance ${percent(glossy)}, diffuse ${percent(diffuse)} from our picture`);
-  return `lightmap within ${percent(glossy)}, on diffuse materials ${percent(diffuse)}`;
+  must(agreement > AGREEMENT, `the exposed map follows the linear one by ${agreement.toFixed(3)} only`);
+  return `lightmap within ${percent(glossy)}, on diffuse materials ${percent(diffuse)}, exposed one follows by ${agreement.toFixed(3)}`;
 }
 
 async function check(page, scene, directory, takesPictures) {
