@@ -15,11 +15,16 @@ pub(super) fn pack(charts: &mut [Chart], size: u32) -> Option<f64> {
     let area: f64 = charts.iter().map(Chart::weight).sum();
     // No more fits than the rectangles' own area, and what is a thousandth of that is as good as nothing.
     let most = f64::from(size) / area.max(f64::MIN_POSITIVE).sqrt();
-    let mut best = (0.0, packed(charts, 0.0, blocks)?);
+    // Turning rectangles helps most atlases and harms some.
+    let fitted = |charts: &[Chart], density| {
+        let mut either = [Rotation::Allowed, Rotation::None].into_iter();
+        either.find_map(|rotation| packed(charts, density, (blocks, rotation)))
+    };
+    let mut best = (0.0, fitted(charts, 0.0)?);
     let (mut low, mut high) = (most / 1000.0, most);
     for _ in 0..HALVINGS {
         let density = (low * high).sqrt();
-        match packed(charts, density, blocks) {
+        match fitted(charts, density) {
             Some(places) => {
                 low = density;
                 best = (density, places);
@@ -46,14 +51,18 @@ struct Place {
 }
 
 /// The places of the charts' rectangles, if all fit.
-fn packed(charts: &[Chart], density: f64, blocks: u32) -> Option<Vec<Place>> {
+fn packed(
+    charts: &[Chart],
+    density: f64,
+    (blocks, rotation): (u32, Rotation),
+) -> Option<Vec<Place>> {
     let sizes: Vec<UVec2> = charts.iter().map(|chart| chart.blocks(density)).collect();
     let area: u64 = sizes.iter().map(|size| u64::from(size.x) * u64::from(size.y)).sum();
     if area > u64::from(blocks) * u64::from(blocks) {
         return None;
     }
     let item = |(number, size): (usize, &UVec2)| {
-        Item::new(number, size.x as usize, size.y as usize, Rotation::Allowed)
+        Item::new(number, size.x as usize, size.y as usize, rotation)
     };
     let square = Rect::of_size(blocks as usize, blocks as usize);
     let packed = crunch::pack(square, sizes.iter().enumerate().map(item)).ok()?;
