@@ -13,6 +13,7 @@
 //! | [`reconstruct()`] → [`TriMesh`] | radiosity at the vertices of a conforming triangulation |
 //! | [`solver::read`] → [`solver::Reading`]s | illuminance at any places, on a [`solver::WorkPlane`] for one |
 //! | [`form_factor::assemble`] → [`form_factor::FormFactors`] | beside all that: the matrix itself, of patches by whole faces ([`faces_of`]) or surfaces |
+//! | [`lightmap::Atlas`] → [`lightmap::bake()`] | the same light as a picture, on a mesh as coarse as the surfaces |
 //! | [`export::save`], [`render::render`] | files for others, pictures |
 //! | [`page::viewer()`] and others, [`page::document()`] | pages to share, with the mesh to turn in them |
 //! | [`compare::compare`] → [`compare::Comparison`] | errors and costs of uniform and adaptive meshes, and a verdict |
@@ -20,7 +21,7 @@
 //! The modules, in the order in which data moves; one may use those to its left, never those to its right:
 //!
 //! scene → surface → mesh → visibility → `form_factor` → direct → refine → solver → reconstruct →
-//! tone → export, render → page → compare
+//! lightmap → tone → export, render → page → compare
 //!
 //! # Words and units
 //!
@@ -80,6 +81,8 @@ pub mod refine;
 pub mod solver;
 
 pub mod reconstruct;
+
+pub mod lightmap;
 
 pub mod tone;
 

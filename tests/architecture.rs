@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The library's modules in flow order; those in one entry do not use each other.
-const FLOW: [&[&str]; 17] = [
+const FLOW: [&[&str]; 18] = [
     &["colour"],
     &["error"],
     &["file"],
@@ -18,6 +18,7 @@ const FLOW: [&[&str]; 17] = [
     &["refine"],
     &["solver"],
     &["reconstruct"],
+    &["lightmap"],
     &["tone"],
     &["export", "render"],
     &["page"],

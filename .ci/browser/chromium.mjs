@@ -67,18 +67,20 @@ export class Browser {
     return withPatience(Promise.race([answer, this.failure]), method);
   }
 
-  // A page of this width that has read the file at `path`; `prepare` may send what must come before.
+  // A page of this width that has read the file at `path`, or what is at an address, whose origin it may
+  // then ask for more; `prepare` may send what must come before.
   async open(path, { width = 1280, height = 900, prepare = async () => {} } = {}) {
     const { targetId } = await this.send("Target.createTarget", { url: "about:blank" });
     const { sessionId } = await this.send("Target.attachToTarget", { targetId, flatten: true });
-    const page = new Page(this, sessionId, targetId);
+    const address = path instanceof URL ? path : pathToFileURL(path);
+    const page = new Page(this, sessionId, targetId, address.origin);
     this.pages.set(sessionId, page);
     for (const domain of ["Page", "Runtime", "Network", "Log"]) await page.send(`${domain}.enable`);
     const size = { width, height, deviceScaleFactor: 1, mobile: false };
     await page.send("Emulation.setDeviceMetricsOverride", size);
     await prepare(page);
     const loaded = page.next("Page.loadEventFired");
-    await page.send("Page.navigate", { url: pathToFileURL(path).href });
+    await page.send("Page.navigate", { url: address.href });
     await loaded;
     return page;
   }
@@ -92,8 +94,8 @@ export class Browser {
 }
 
 export class Page {
-  constructor(browser, session, target) {
-    Object.assign(this, { browser, session, target });
+  constructor(browser, session, target, origin) {
+    Object.assign(this, { browser, session, target, origin });
     this.complaints = [];
     this.listeners = new Map();
   }
@@ -118,9 +120,13 @@ export class Page {
       this.complaints.push(`console: ${params.args.map((arg) => arg.value ?? arg.description).join(" ")}`);
     } else if (method === "Log.entryAdded" && ["error", "warning"].includes(params.entry.level)) {
       this.complaints.push(`log: ${params.entry.text}`);
-    } else if (method === "Network.requestWillBeSent" && !/^(file|data|blob):/.test(params.request.url)) {
+    } else if (method === "Network.requestWillBeSent" && !this.mayAskFor(params.request.url)) {
       this.complaints.push(`request: ${params.request.url}`);
     }
+  }
+
+  mayAskFor(address) {
+    return /^(file|data|blob):/.test(address) || new URL(address).origin === this.origin;
   }
 
   // What `action` returns when called with these values in the page.

@@ -13,6 +13,7 @@ mod grid;
 mod info;
 mod interrupt;
 mod lighting;
+mod lightmap;
 mod meter;
 mod options;
 mod outputs;

@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use radiosity::{Error, Result, compare, export, page, render};
 
+use super::lightmap::LightmapOptions;
+
 /// Whether all files could be written, and none of them is the one that is read.
 pub(crate) fn check(
     input: &Path,
@@ -24,6 +26,23 @@ pub(crate) fn check(
         export::check_history(path)?;
     }
     Ok(())
+}
+
+/// The same for a lightmap, whose files are others than those of meshes and pictures.
+pub(crate) fn check_lightmap(
+    input: &Path,
+    lightmap: &LightmapOptions,
+    others: [&[PathBuf]; 2],
+) -> Result<()> {
+    for path in lightmap.files() {
+        refuse_input(input, &path)?;
+        if others.iter().any(|paths| paths.contains(&path)) {
+            let message =
+                "is to be written twice: a lightmap has a coarse mesh and maps of its own";
+            return Err(Error::format(&path, message));
+        }
+    }
+    lightmap.check()
 }
 
 /// The same for matrices of form factors.

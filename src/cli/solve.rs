@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use radiosity::colour::Rgb;
 use radiosity::export::{self, Stamp};
+use radiosity::lightmap::Atlas;
 use radiosity::mesh::Direct;
 use radiosity::render::{self, Solved, Subject};
 use radiosity::solver::Stop;
@@ -16,6 +17,7 @@ use super::failure::Failure;
 use super::grid::GridOptions;
 use super::interrupt::Interrupt;
 use super::lighting::{Lighting, Lit, RelightOptions};
+use super::lightmap::LightmapOptions;
 use super::meter::Meter;
 use super::options::{
     AccuracyOptions, CameraChoice, CheckpointOptions, HINT, LimitOptions, PictureOptions,
@@ -59,6 +61,9 @@ pub(crate) struct Solve {
     relight: RelightOptions,
 
     #[command(flatten)]
+    lightmap: LightmapOptions,
+
+    #[command(flatten)]
     grid: GridOptions,
 
     #[command(flatten)]
@@ -93,6 +98,7 @@ Examples:
   radiosity solve room.glb -o room-lit.ply --image mesh.png --view wireframe --tolerance 1.5%
   radiosity solve kitchen.obj --image final.png --image mesh.png --view light,reason --final-gather
   radiosity solve scenes/office.obj --quality draft --html office.html --snapshots 1,2,24,100
+  radiosity solve scenes/office.obj --quality draft --lightmap office.glb --lightmap-size 2048
   radiosity solve scenes/bare-room.obj --emit 'lamp*=800lm' --sky cie-overcast --image lit.png
   radiosity solve scenes/two-rooms.obj --relightable -o rooms.glb
   radiosity solve hall.glb -o lit.glb --quality high --checkpoint hall.work --resume
@@ -112,6 +118,7 @@ impl Solve {
         let (mut scene, camera) = self.read(&mut meter)?;
         let surfaces = surfaces(&mut scene, &mut meter);
         let places = self.grid.places(&surfaces)?;
+        let atlas = self.lightmap.atlas(&surfaces)?;
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
         settings.validate_for(surfaces.area(), surfaces.extent)?;
         self.announce((&surfaces, &settings), &settings_record, &meter);
@@ -134,7 +141,7 @@ impl Solve {
         };
         let solved = Solved { surfaces: &surfaces, settings: &settings, solution: &solution };
         let subject = Subject { mesh: &mesh, solved: Some(solved) };
-        self.write_meshes(&subject, &stamp, &mut meter)?;
+        self.write_meshes(&subject, atlas.as_ref(), &stamp, &mut meter)?;
         self.write_pictures(subject, (&camera, exposure), &interrupt, &mut meter)?;
         if let Some(path) = &self.history {
             export::save_history(&solution.history, path)?;
@@ -159,7 +166,7 @@ impl Solve {
             grid,
             settings: settings_record,
             seconds: meter.into_timings(),
-            written: self.written().cloned().collect(),
+            written: self.written().collect(),
             notes: scene.notes,
         })
     }
@@ -190,6 +197,7 @@ impl Solve {
         let tables: Vec<&Path> = self.tables().map(PathBuf::as_path).collect();
         outputs::check(&self.scene.path, &self.output, &self.image, &tables)?;
         self.checkpoint.check(&self.scene.path)?;
+        outputs::check_lightmap(&self.scene.path, &self.lightmap, [&self.output, &self.image])?;
         self.page.check()?;
         self.picture.views(&self.image)?;
         Ok(())
@@ -202,9 +210,10 @@ impl Solve {
     }
 
     /// The files to write.
-    fn written(&self) -> impl Iterator<Item = &PathBuf> {
+    fn written(&self) -> impl Iterator<Item = PathBuf> {
         let meshes_and_pictures = self.output.iter().chain(&self.image);
-        meshes_and_pictures.chain(self.tables()).chain(&self.page.html)
+        let all = meshes_and_pictures.chain(self.tables()).chain(&self.page.html);
+        all.cloned().chain(self.lightmap.files())
     }
 
     fn tables(&self) -> impl Iterator<Item = &PathBuf> {
@@ -223,6 +232,7 @@ impl Solve {
     fn write_meshes(
         &self,
         subject: &Subject<'_>,
+        atlas: Option<&Atlas>,
         stamp: &Stamp,
         meter: &mut Meter,
     ) -> Result<(), Failure> {
@@ -232,6 +242,7 @@ impl Solve {
         for path in &self.output {
             export::save(subject.mesh, path, stamp)?;
         }
+        self.lightmap.write(atlas, subject, stamp, meter)?;
         Ok(())
     }
 

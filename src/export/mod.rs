@@ -8,12 +8,14 @@
 //!
 //! Colours are exposed and tone-mapped ([`crate::tone`]). On textured parts of a GLB or OBJ they
 //! are the light that the picture is multiplied by; a PLY has no pictures and shows their mean.
+//! [`save_lightmap`] writes light as a picture instead, and the GLB that it fits on.
 
 mod factors;
 mod glb;
 mod grid;
 mod group;
 mod history;
+mod lightmap;
 mod look;
 mod obj;
 mod picture;
@@ -30,6 +32,7 @@ pub use factors::{FactorPatch, FactorTable, check_writable_factors, save_factors
 pub use glb::load_solved;
 pub use grid::save_grid;
 pub use history::{check_history, save_history};
+pub use lightmap::{check_writable_lightmap, lightmap_files, save_lightmap};
 use look::Look;
 
 /// What a file says about the light in it, beside the light.

@@ -26,8 +26,11 @@ pub use by_light::{LightShare, reconstruct_by_light};
 pub use dimming::Dimming;
 pub use trimesh::{Irradiance, Part, TriMesh};
 
+pub(crate) use normal::normal_at;
+pub(crate) use stitch::Places;
+pub(crate) use triangulate::triangulate;
+
 use sheet::Sheet;
-use stitch::Places;
 
 /// The triangle mesh of a solution.
 pub fn reconstruct(surfaces: &Surfaces, solution: &Solution) -> TriMesh {

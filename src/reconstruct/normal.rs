@@ -8,7 +8,7 @@ use crate::surface::{Surface, polygon};
 /// blended between the corners by mean value coordinates ([Floater 2003]).
 ///
 /// [Floater 2003]: https://doi.org/10.1016/S0167-8396(03)00002-5
-pub(super) fn normal_at(surface: &Surface, place: DVec2) -> DVec3 {
+pub(crate) fn normal_at(surface: &Surface, place: DVec2) -> DVec3 {
     let Some(ring) = surface.rings.first().filter(|r| r.len() == surface.normals.len()) else {
         return surface.plane.normal;
     };

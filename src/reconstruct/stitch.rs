@@ -12,7 +12,7 @@ const CELLS: f64 = 160.0;
 
 /// The corners of all leaves, each place once, found by where they are.
 #[derive(Debug)]
-pub(super) struct Places {
+pub(crate) struct Places {
     points: Vec<DVec3>,
     cells: HashMap<[i32; 3], Vec<u32>>,
     cell_size: f64,
@@ -20,7 +20,7 @@ pub(super) struct Places {
 }
 
 impl Places {
-    pub(super) fn new(weld: &Weld, extent: f64, tolerance: f64) -> Self {
+    pub(crate) fn new(weld: &Weld, extent: f64, tolerance: f64) -> Self {
         let points = weld.places().to_vec();
         let mut places =
             Self { points, cells: HashMap::new(), cell_size: extent / CELLS, tolerance };
@@ -32,12 +32,12 @@ impl Places {
     }
 
     /// Where a place is, m.
-    pub(super) fn at(&self, place: u32) -> DVec3 {
+    pub(crate) fn at(&self, place: u32) -> DVec3 {
         self.points[place as usize]
     }
 
     /// The places strictly between two others, in their order from `a` to `b`.
-    pub(super) fn between(&self, a: u32, b: u32) -> Vec<u32> {
+    pub(crate) fn between(&self, a: u32, b: u32) -> Vec<u32> {
         let (from, to) = (self.at(a), self.at(b));
         let length = from.distance(to);
         let along = (to - from) / length;

@@ -25,16 +25,16 @@ impl HasPosition for Node {
 
 /// A triangle between three places, and the leaf it is part of.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Tile {
-    pub(super) corners: [u32; 3],
+pub(crate) struct Tile {
+    pub(crate) corners: [u32; 3],
     /// Index into the loops it was made from.
-    pub(super) leaf: usize,
+    pub(crate) leaf: usize,
 }
 
 /// Triangulates leaves given as loops of places, counter-clockwise, hanging nodes included.
 ///
 /// Loops that share an edge must share all places on it. `at` gives a place's coordinates.
-pub(super) fn triangulate(loops: &[Vec<u32>], at: impl Fn(u32) -> DVec2) -> Vec<Tile> {
+pub(crate) fn triangulate(loops: &[Vec<u32>], at: impl Fn(u32) -> DVec2) -> Vec<Tile> {
     let mut numbers: HashMap<u32, usize> = HashMap::new();
     let mut nodes: Vec<Node> = Vec::new();
     let mut edges: Vec<[usize; 2]> = Vec::new();

@@ -14,6 +14,7 @@ use super::document::Document;
 use crate::export::group::Group;
 use crate::export::picture::{self, Coding};
 use crate::reconstruct::TriMesh;
+use crate::scene::Texture as Picture;
 
 /// The pictures that a document holds already.
 #[derive(Debug, Default)]
@@ -30,16 +31,11 @@ impl Materials {
         group: &Group,
     ) -> io::Result<Index<Material>> {
         let texture = match group.texture {
-            Some(texture) => Some(self.texture(document, mesh, texture)?),
+            Some(texture) => Some(self.texture(document, &mesh.textures, texture)?),
             None => None,
         };
         let pbr_metallic_roughness = PbrMetallicRoughness {
-            base_color_texture: texture.map(|index| Info {
-                index,
-                tex_coord: 0,
-                extensions: None,
-                extras: None,
-            }),
+            base_color_texture: texture.map(first_uv),
             metallic_factor: StrengthFactor(0.0),
             ..PbrMetallicRoughness::default()
         };
@@ -54,16 +50,17 @@ impl Materials {
         }))
     }
 
-    fn texture(
+    /// The picture of this number among `textures`, stored once.
+    pub(super) fn texture(
         &mut self,
         document: &mut Document,
-        mesh: &TriMesh,
+        textures: &[Picture],
         number: u32,
     ) -> io::Result<Index<Texture>> {
         if let Some(&known) = self.textures.get(&number) {
             return Ok(known);
         }
-        let texture = &mesh.textures[number as usize];
+        let texture = &textures[number as usize];
         let view = document.view(&picture::encoded(texture)?, None);
         let name = (!texture.name.is_empty()).then(|| texture.name.clone());
         let source = document.root.push(Image {
@@ -85,6 +82,11 @@ impl Materials {
         self.textures.insert(number, index);
         Ok(index)
     }
+}
+
+/// A texture laid on by the first coordinates.
+pub(super) fn first_uv(index: Index<Texture>) -> Info {
+    Info { index, tex_coord: 0, extensions: None, extras: None }
 }
 
 fn sampler(repeat: [bool; 2]) -> Sampler {

@@ -2,6 +2,7 @@
 
 mod accessors;
 mod document;
+mod lightmap;
 mod materials;
 mod read;
 mod record;
@@ -20,6 +21,7 @@ use document::Document;
 use materials::Materials;
 use record::Record;
 
+pub(crate) use lightmap::write as write_lightmap;
 pub use read::load_solved;
 
 /// Attribute with the radiosity, W/m² per channel; glTF puts an underscore before it.

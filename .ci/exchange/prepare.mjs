@@ -1,0 +1,31 @@
+// Makes what other programs are tried with: node prepare.mjs RADIOSITY DIRECTORY
+// Scenes solved into meshes and lightmaps, our own pictures of them, and scenes.json with their cameras.
+
+import { execFileSync } from "node:child_process";
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+
+import { writeTextured } from "./textured.mjs";
+
+const [program, directory] = process.argv.slice(2);
+if (!directory) {
+  console.error("usage: node prepare.mjs RADIOSITY DIRECTORY");
+  process.exit(2);
+}
+mkdirSync(directory, { recursive: true });
+const SCENES = [
+  { name: "cornell-box", file: "scenes/cornell-box.obj", eye: [0.278, 0.273, -0.75], target: [0.278, 0.26, 0.28], fov: 40 },
+  { name: "two-rooms", file: "scenes/two-rooms.obj", eye: [0.5, 1.6, 0.5], target: [3, 1, 2.5], fov: 60 },
+  { name: "textured", file: writeTextured(directory), eye: [0.2, 1.7, 2.8], target: [1.7, 0.7, 1.0], fov: 60 },
+].map((scene) => ({ ...scene, width: 480, height: 360 }));
+
+const run = (...options) => execFileSync(program, options.map(String), { stdio: ["ignore", "ignore", "inherit"] });
+for (const { name, file, eye, target, fov, width, height } of SCENES) {
+  const place = (ending) => join(directory, `${name}${ending}`);
+  run("solve", file, "--quality", "draft", "-q", "-o", place(".glb"), "--lightmap", place("-map.glb"));
+  for (const ending of [".png", ".exr"]) {
+    run("render", place(".glb"), "-q", "-o", place(ending), "--eye", eye, "--target", target, "--fov", fov, "--size", `${width}x${height}`);
+  }
+}
+writeFileSync(join(directory, "scenes.json"), JSON.stringify(SCENES));
+console.log(`${SCENES.length} scenes in ${directory}`);
