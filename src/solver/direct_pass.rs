@@ -3,6 +3,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
+use super::groups::Groups;
 use super::{Observer, Phase};
 use crate::colour::Rgb;
 use crate::direct::PatchLight;
@@ -22,6 +23,8 @@ pub(super) struct World<'a> {
     pub(super) surfaces: &'a Surfaces,
     pub(super) occluders: &'a Occluders,
     pub(super) light: &'a PatchLight,
+    /// What shoots as one.
+    pub(super) groups: &'a Groups,
 }
 
 /// Evaluates direct light at all vertices that lack it.

@@ -10,11 +10,14 @@ use glam::DVec3;
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
+use super::groups::Groups;
+use super::lookout::{Arrival, LightField, Lookout, lookouts};
 use super::sources::{Piece, Sources};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
-use crate::form_factor::hemicube::{DeltaFactors, Hemicube, Sight, Targets, turn};
+use crate::form_factor::hemicube::{Cover, DeltaFactors, Hemicube, Sight, Targets, turn};
 use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
+use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
 
@@ -46,6 +49,9 @@ struct Gathered {
 pub(super) struct Gatherer<'a> {
     surfaces: &'a Surfaces,
     occluders: &'a Occluders,
+    groups: &'a Groups,
+    /// Vertices of a group of facets nearer to each other than this, m, have one view.
+    near: f64,
     sources: Sources,
     delta: DeltaFactors,
     /// Elements whose parts may change a result by more than this, W/m², are taken in parts.
@@ -60,7 +66,8 @@ pub(super) struct Gatherer<'a> {
 
 impl<'a> Gatherer<'a> {
     pub(super) fn new(
-        (surfaces, occluders): (&'a Surfaces, &'a Occluders),
+        (surfaces, occluders, groups): (&'a Surfaces, &'a Occluders, &'a Groups),
+        settings: &Settings,
         sources: Sources,
         fine: f64,
     ) -> Self {
@@ -68,6 +75,8 @@ impl<'a> Gatherer<'a> {
         Self {
             surfaces,
             occluders,
+            groups,
+            near: 0.5 * settings.min_element.metres(surfaces.extent),
             sources,
             delta,
             fine,
@@ -84,16 +93,20 @@ impl<'a> Gatherer<'a> {
         dark.sort_unstable();
         dark.dedup();
         let targets = Targets::new(&mesh.patches);
-        let lit: Vec<Gathered> = dark
+        let lookouts = lookouts((self.surfaces, mesh, self.groups), self.near, &dark);
+        let lit: Vec<Vec<Gathered>> = lookouts
             .par_iter()
             .map_init(
                 || Hemicube::new(&self.delta, &targets, self.occluders),
-                |hemicube, &vertex| self.gather(mesh, hemicube, vertex),
+                |hemicube, lookout| self.gather(mesh, hemicube, lookout),
             )
             .collect();
         self.gathered += lit.len();
         self.views.resize(mesh.vertices.len(), None);
-        for (&vertex, Gathered { irradiance, view, factors }) in dark.iter().zip(lit) {
+        let vertices = lookouts.iter().flat_map(|lookout| &lookout.vertices);
+        for (&vertex, Gathered { irradiance, view, factors }) in
+            vertices.zip(lit.into_iter().flatten())
+        {
             self.factors += factors;
             mesh.vertices[vertex.index()].indirect = Some(irradiance);
             self.views[vertex.index()] = Some(view);
@@ -130,47 +143,79 @@ impl<'a> Gatherer<'a> {
         place: (DVec3, DVec3),
         turn: f64,
     ) -> Rgb {
-        self.look(mesh, hemicube, place, turn).irradiance
+        let mut irradiance = Rgb::ZERO;
+        self.look(mesh, hemicube, (place, turn), &mut |from: &Arrival<'_>| {
+            irradiance += from.light
+        });
+        irradiance
     }
 
-    /// Irradiance of a vertex by all reflected light, and what it saw.
-    fn gather(&self, mesh: &Mesh, hemicube: &mut Hemicube<'_>, vertex: VertexId) -> Gathered {
-        let normal = self.surfaces.list[mesh[vertex].surface as usize].plane.normal;
-        self.look(mesh, hemicube, (mesh[vertex].site, normal), turn(vertex.index() as f64))
+    /// Irradiance of the vertices of a lookout by all reflected light, and what they saw.
+    fn gather(&self, mesh: &Mesh, hemicube: &mut Hemicube<'_>, lookout: &Lookout) -> Vec<Gathered> {
+        let turn = turn(lookout.vertices[0].index() as f64);
+        let place = (lookout.eye, lookout.normal);
+        let normal = |v: VertexId| self.surfaces.list[mesh[v].surface as usize].plane.normal;
+        if lookout.vertices.len() == 1 {
+            let mut irradiance = Rgb::ZERO;
+            let (view, factors) =
+                self.look(mesh, hemicube, (place, turn), &mut |from: &Arrival<'_>| {
+                    irradiance += from.light;
+                });
+            return vec![Gathered { irradiance, view, factors }];
+        }
+        let mut field = LightField::default();
+        let (view, factors) =
+            self.look(mesh, hemicube, (place, turn), &mut |from: &Arrival<'_>| {
+                field.add(place, from)
+            });
+        let light = |(k, &vertex): (usize, &VertexId)| Gathered {
+            irradiance: field.irradiance(normal(vertex)),
+            view: view.clone(),
+            factors: if k == 0 { factors } else { 0 },
+        };
+        lookout.vertices.iter().enumerate().map(light).collect()
     }
 
+    /// Tells `arrive` of all reflected light. Returns what fills much of the view, and how many factors that took.
     fn look(
         &self,
         mesh: &Mesh,
         hemicube: &mut Hemicube<'_>,
-        (site, normal): (DVec3, DVec3),
-        turn: f64,
-    ) -> Gathered {
-        let hemicube = hemicube.look((site, normal), turn);
-        let (mut irradiance, mut factors) = (Rgb::ZERO, 0);
-        let mut view = View::new();
-        for sight in hemicube.sights().filter(|sight| sight.front) {
-            let (light, count) = self.receive(mesh, hemicube, (site, normal), sight);
-            irradiance += light;
-            factors += count;
+        (place, turn): ((DVec3, DVec3), f64),
+        arrive: &mut impl FnMut(&Arrival<'_>),
+    ) -> (View, u64) {
+        let hemicube = hemicube.look(place, turn);
+        let (mut factors, mut view) = (0, View::new());
+        let is_whole = |patch: PatchId| !self.groups.holds(patch);
+        for sight in hemicube.sights_of(is_whole).filter(|sight| sight.front) {
+            factors += self.receive(mesh, hemicube, (place, sight), arrive);
             if sight.delta > WIDE {
                 view.push((sight.patch, sight.delta));
             }
         }
-        Gathered { irradiance, view, factors }
+        // Facets are many and small: their cells are all that is to be known of them.
+        let facets = hemicube.prints_of(|patch| !is_whole(patch));
+        for Cover { patch, kept, .. } in facets.filter(|cover| cover.front && cover.kept > 0.0) {
+            let light = self.sources.mean(mesh[patch].root) * kept;
+            arrive(&Arrival { light, corners: &mesh[patch].corners });
+            if kept > WIDE {
+                view.push((patch, kept));
+            }
+        }
+        (view, factors)
     }
 
-    /// Irradiance by one patch, from elements small enough, and how many factors that took.
+    /// Tells `arrive` of the light of one patch, from elements small enough. Returns how many factors that took.
     fn receive(
         &self,
         mesh: &Mesh,
         hemicube: &Hemicube<'_>,
-        (site, normal): (DVec3, DVec3),
-        sight: Sight,
-    ) -> (Rgb, u64) {
+        ((site, normal), sight): ((DVec3, DVec3), Sight),
+        arrive: &mut impl FnMut(&Arrival<'_>),
+    ) -> u64 {
         let surfaces = self.surfaces;
         let plane = &surfaces.list[mesh[sight.patch].surface as usize].plane;
-        let (mut irradiance, mut factors) = (Rgb::ZERO, 0);
+        let mut factors = 0;
         let mut open: SmallVec<[ElementId; 32]> = SmallVec::new();
         let root = mesh[sight.patch].root;
         open.push(root);
@@ -194,13 +239,14 @@ impl<'a> Gatherer<'a> {
             if varies {
                 let piece = self.sources.piece(mesh, surfaces, source);
                 let (light, count) = self.piece_light((site, normal), (&piece, factor), DEEPEST);
-                irradiance += visible * light;
+                arrive(&Arrival { light: visible * light, corners: &corners });
                 factors += count;
             } else {
-                irradiance += visible * (self.sources.mean(source) * factor);
+                let light = visible * (self.sources.mean(source) * factor);
+                arrive(&Arrival { light, corners: &corners });
             }
         }
-        (irradiance, factors)
+        factors
     }
 
     /// Irradiance by a piece of a leaf with this form factor, divided while its variation matters, and

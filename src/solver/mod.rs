@@ -8,7 +8,10 @@ mod direct_pass;
 mod element_light;
 mod energy;
 mod gather;
+mod groups;
 mod indirect_pass;
+mod lookout;
+mod parts;
 mod probe;
 mod progressive;
 pub mod relaxation;
@@ -37,6 +40,7 @@ pub use work_plane::{Evenness, WorkPlane};
 
 use direct_pass::World;
 use gather::Gatherer;
+use groups::Groups;
 use progressive::Shooting;
 use relaxation::Step;
 use sources::Sources;
@@ -172,7 +176,8 @@ pub fn solve_in_stages(
         return Err(Error::Scene(DARK.to_owned()));
     }
     let light = PatchLight::new(lamps, Occluders::new(surfaces), &mesh);
-    let world = World { surfaces, occluders: light.occluders(), light: &light };
+    let groups = Groups::new(surfaces, settings, &mesh);
+    let world = World { surfaces, occluders: light.occluders(), light: &light, groups: &groups };
 
     direct_pass::refine(world, settings, &mut mesh, &mut observer);
     direct_pass::light_leaves(world, &mut mesh);
@@ -207,8 +212,8 @@ fn gather(
 ) -> (usize, u64) {
     let fine = GATHER_SHARE * settings.tolerance * mean_radiosity(mesh);
     let oracle = Oracle::of_reflected_light(settings, world.surfaces.extent, mesh);
-    let mut gatherer =
-        Gatherer::new((world.surfaces, world.occluders), exchange.sources(mesh), fine);
+    let scene = (world.surfaces, world.occluders, world.groups);
+    let mut gatherer = Gatherer::new(scene, settings, exchange.sources(mesh), fine);
     for round in 1..=ROUNDS {
         indirect_pass::refine((settings, &oracle), &mut gatherer, mesh, observer);
         direct_pass::light_leaves(world, mesh);
