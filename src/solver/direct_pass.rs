@@ -38,13 +38,24 @@ pub(super) fn light(world: World<'_>, mesh: &mut Mesh) {
     }
 }
 
-/// Evaluates direct light at the corners and in the middle of all leaves, as their means need.
+/// Evaluates direct light at the corners of all leaves, and in their middle, as their means need.
 pub(super) fn light_leaves(world: World<'_>, mesh: &mut Mesh) {
-    let leaves: Vec<ElementId> = mesh.leaves().collect();
+    // Facets are so small that their corners tell enough.
+    let is_whole = |&leaf: &ElementId| !world.groups.holds(mesh[leaf].patch);
+    let leaves: Vec<ElementId> = mesh.leaves().filter(is_whole).collect();
     for leaf in leaves {
         mesh.middle(leaf);
     }
     light(world, mesh);
+}
+
+/// True for small facets that are lit evenly, as their neighbours will be: no shadow edge is looked for that
+/// would be hardly longer than the shortest side.
+fn is_even_facet((groups, mesh): (&Groups, &Mesh), oracle: &Oracle, element: ElementId) -> bool {
+    let patch = mesh[element].patch;
+    let light =
+        |vertex: &Vertex| mesh[patch].reflectance * vertex.direct.unwrap_or_default().irradiance;
+    groups.holds(patch) && oracle.is_small(mesh, element) && oracle.is_even((mesh, element), light)
 }
 
 /// Refines the mesh until direct light can be interpolated; leaves a uniform mesh as it is.
@@ -73,7 +84,11 @@ pub(super) fn refine(
         if observer.tell(Phase::Direct, share).is_break() {
             return;
         }
-        candidates.retain(|&e| oracle.may_divide(mesh, e) && reflects(mesh, e));
+        candidates.retain(|&e| {
+            oracle.may_divide(mesh, e)
+                && reflects(mesh, e)
+                && !is_even_facet((world.groups, mesh), &oracle, e)
+        });
         let middles: Vec<Middle> = candidates.iter().map(|&e| mesh.middle(e)).collect();
         light(world, mesh);
         let judged = candidates.par_iter().zip(&middles);

@@ -130,6 +130,11 @@ impl<'a> Gatherer<'a> {
         }
     }
 
+    /// What of the mesh is in groups.
+    pub(super) fn groups(&self) -> &'a Groups {
+        self.groups
+    }
+
     /// The delta factors of the hemicubes that it looks through.
     pub(super) fn delta(&self) -> &DeltaFactors {
         &self.delta
