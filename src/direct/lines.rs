@@ -15,7 +15,8 @@
 use glam::DVec3;
 
 use super::AreaLamp;
-use crate::visibility::{Facet, HalfSpace};
+use super::rims::Rims;
+use crate::visibility::{Facet, HalfSpace, Occluders};
 
 /// An edge as high over the receiver as this share of the lamp's corner throws no shadow worth a line:
 /// it would be very far away.
@@ -32,15 +33,16 @@ pub struct Line {
 
 impl AreaLamp {
     /// The lines that occluders make with the part of the lamp, which has this number, above the receiver.
-    pub(super) fn lines<'a>(
+    pub(super) fn lines(
         &self,
         (lamp, receiver): (u32, Facet<'_>),
-        occluders: impl Iterator<Item = &'a [DVec3]>,
+        among: (&Occluders, &Rims),
+        occluders: impl Iterator<Item = u32>,
     ) -> impl Iterator<Item = Line> {
         let mut lines = Vec::new();
         if let Some(above) = self.above(receiver) {
             occluders.for_each(|occluder| {
-                self.lines_by(&above, occluder, receiver.plane, &mut lines);
+                self.lines_by(&above, among, (occluder, receiver.plane), &mut lines);
             });
         }
         lines.into_iter().map(move |ends| Line { ends, lamp })
@@ -50,25 +52,29 @@ impl AreaLamp {
     fn lines_by(
         &self,
         above: &[DVec3],
-        occluder: &[DVec3],
-        receiver: HalfSpace,
+        (occluders, rims): (&Occluders, &Rims),
+        (occluder, receiver): (u32, HalfSpace),
         lines: &mut Vec<[DVec3; 2]>,
     ) {
-        let between = self.front.clip(&receiver.clip(occluder));
+        let whole = occluders.facet(occluder).corners;
+        let between = self.front.clip(&receiver.clip(whole));
+        let is_whole = between.as_slice() == whole;
         for (k, &from) in between.iter().enumerate() {
             let to = between[(k + 1) % between.len()];
-            lines.extend(above.iter().filter_map(|&eye| {
+            let eyes = above.iter().filter(|&&eye| !is_whole || rims.is_rim(occluder, k, eye));
+            lines.extend(eyes.filter_map(|&eye| {
                 let seen = below(eye, receiver, [from, to])?;
                 Some(seen.map(|p| project(eye, p, receiver)))
             }));
         }
-        for &pivot in &between {
+        for (corner, &pivot) in between.iter().enumerate() {
             for (k, &from) in above.iter().enumerate() {
                 let edge = [from, above[(k + 1) % above.len()]];
                 let is_below = |eye: &DVec3| receiver.depth(pivot) < HIGHEST * receiver.depth(*eye);
                 // On the receiver itself, a corner is the beginning of lines, not a line.
                 let stands = receiver.depth(pivot) > f64::EPSILON * pivot.length();
-                if stands && edge.iter().all(is_below) {
+                let counts = !is_whole || rims.is_peak(occluder, corner, edge);
+                if stands && counts && edge.iter().all(is_below) {
                     lines.push(edge.map(|eye| project(eye, pivot, receiver)));
                 }
             }

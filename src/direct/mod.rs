@@ -6,6 +6,7 @@ mod glimpse;
 mod lines;
 mod outlook;
 mod punctual;
+mod rims;
 mod sky;
 mod tally;
 

@@ -6,6 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::lines::Line;
+use super::rims::Rims;
 use super::{AreaLamp, Lamps};
 use crate::mesh::{Direct, Mesh, Patch, PatchId, Vertex};
 use crate::visibility::{Facet, Occluders};
@@ -20,6 +21,7 @@ pub struct PatchLight {
     occluders: Occluders,
     /// By patch.
     outlooks: Vec<Outlook>,
+    rims: Rims,
 }
 
 #[derive(Debug)]
@@ -44,7 +46,8 @@ impl PatchLight {
     pub fn new(lamps: Lamps, occluders: Occluders, mesh: &Mesh) -> Self {
         let outlook = |patch: &Patch| Outlook::new(&lamps, &occluders, patch);
         let outlooks = mesh.patches.par_iter().map(outlook).collect();
-        Self { lamps, occluders, outlooks }
+        let rims = Rims::new(&occluders);
+        Self { lamps, occluders, outlooks, rims }
     }
 
     /// Where it comes from.
@@ -92,8 +95,8 @@ impl PatchLight {
         for Prospect { lamp: number, between } in prospects {
             let lamp = &self.lamps.areas[*number as usize];
             let between = between.iter().flatten().filter(|_| !lamp.glow.is_sky());
-            let polygons = between.map(|&occluder| self.occluders.corners(occluder));
-            lines.extend(lamp.lines((*number, receiver), polygons));
+            let among = (&self.occluders, &self.rims);
+            lines.extend(lamp.lines((*number, receiver), among, between.copied()));
         }
         lines
     }
