@@ -36,7 +36,7 @@ impl AreaLamp {
     pub(super) fn lines(
         &self,
         (lamp, receiver): (u32, Facet<'_>),
-        among: (&Occluders, &Rims),
+        among: (&Occluders, Option<&Rims>),
         occluders: impl Iterator<Item = u32>,
     ) -> impl Iterator<Item = Line> {
         let mut lines = Vec::new();
@@ -52,16 +52,18 @@ impl AreaLamp {
     fn lines_by(
         &self,
         above: &[DVec3],
-        (occluders, rims): (&Occluders, &Rims),
+        (occluders, rims): (&Occluders, Option<&Rims>),
         (occluder, receiver): (u32, HalfSpace),
         lines: &mut Vec<[DVec3; 2]>,
     ) {
         let whole = occluders.facet(occluder).corners;
         let between = self.front.clip(&receiver.clip(whole));
-        let is_whole = between.as_slice() == whole;
+        // What is cut has edges of its own.
+        let rims = rims.filter(|_| between.as_slice() == whole);
         for (k, &from) in between.iter().enumerate() {
             let to = between[(k + 1) % between.len()];
-            let eyes = above.iter().filter(|&&eye| !is_whole || rims.is_rim(occluder, k, eye));
+            let bounds = |eye: &&DVec3| rims.is_none_or(|rims| rims.is_rim(occluder, k, **eye));
+            let eyes = above.iter().filter(bounds);
             lines.extend(eyes.filter_map(|&eye| {
                 let seen = below(eye, receiver, [from, to])?;
                 Some(seen.map(|p| project(eye, p, receiver)))
@@ -73,7 +75,7 @@ impl AreaLamp {
                 let is_below = |eye: &DVec3| receiver.depth(pivot) < HIGHEST * receiver.depth(*eye);
                 // On the receiver itself, a corner is the beginning of lines, not a line.
                 let stands = receiver.depth(pivot) > f64::EPSILON * pivot.length();
-                let counts = !is_whole || rims.is_peak(occluder, corner, edge);
+                let counts = rims.is_none_or(|rims| rims.is_peak(occluder, corner, edge));
                 if stands && counts && edge.iter().all(is_below) {
                     lines.push(edge.map(|eye| project(eye, pivot, receiver)));
                 }

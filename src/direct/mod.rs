@@ -225,6 +225,16 @@ impl AreaLamp {
         Some(Arriving { light: Direct { irradiance, unoccluded }, rays })
     }
 
+    /// What would arrive at a place with a unit normal if nothing stood between, W/m².
+    fn unoccluded(&self, receiver: (DVec3, DVec3)) -> Rgb {
+        let above = self.reach(receiver.0, receiver.1);
+        if above.is_empty() {
+            Rgb::ZERO
+        } else {
+            self.exitance * self.glow.weight(receiver, &above)
+        }
+    }
+
     /// The part above the horizon of a place in front of the lamp.
     fn reach(&self, place: DVec3, normal: DVec3) -> Cow<'_, [DVec3]> {
         if self.front.depth(place) <= 0.0 {

@@ -7,12 +7,17 @@ use rayon::prelude::*;
 
 use super::lines::Line;
 use super::rims::Rims;
-use super::{AreaLamp, Lamps};
+use super::{AreaLamp, Lamps, punctual};
+use crate::colour::Rgb;
 use crate::mesh::{Direct, Mesh, Patch, PatchId, Vertex};
 use crate::visibility::{Facet, Occluders};
 
 /// More occluders than this are found quicker from each place anew.
 const FEW: usize = 32;
+
+/// Of more occluders than this, as of curved things, only the edges on their rims make lines. Of fewer, those
+/// that bound nothing cost little, and are found by what they carry.
+const MANY: usize = 256;
 
 /// Direct light on the patches of a mesh.
 #[derive(Debug)]
@@ -65,6 +70,17 @@ impl PatchLight {
         self.by(patch, place, |_| true) + self.points_at(patch, place)
     }
 
+    /// What would arrive at a place on a patch if nothing stood between, W/m².
+    pub fn unoccluded(&self, patch: PatchId, place: DVec3) -> Rgb {
+        let Outlook { normal, prospects, .. } = &self.outlooks[patch.index()];
+        let areas = prospects
+            .iter()
+            .map(|prospect| self.lamps.areas[prospect.lamp as usize].unoccluded((place, *normal)));
+        let points = self.lamps.points.iter();
+        let points = points.filter_map(|point| punctual::irradiance(point, place, *normal));
+        areas.sum::<Rgb>() + points.map(|(irradiance, _)| irradiance).sum::<Rgb>()
+    }
+
     /// What arrives at vertices, in their order.
     pub fn at_vertices(&self, vertices: &[&Vertex]) -> Vec<Direct> {
         vertices.par_iter().map(|vertex| self.at(vertex.patch, vertex.site)).collect()
@@ -95,8 +111,13 @@ impl PatchLight {
         for Prospect { lamp: number, between } in prospects {
             let lamp = &self.lamps.areas[*number as usize];
             let between = between.iter().flatten().filter(|_| !lamp.glow.is_sky());
-            let among = (&self.occluders, &self.rims);
-            lines.extend(lamp.lines((*number, receiver), among, between.copied()));
+            let count = between.clone().count();
+            let rims = (count > MANY).then_some(&self.rims);
+            lines.extend(lamp.lines(
+                (*number, receiver),
+                (&self.occluders, rims),
+                between.copied(),
+            ));
         }
         lines
     }

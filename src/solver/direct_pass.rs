@@ -2,8 +2,10 @@
 
 use glam::DVec2;
 use rayon::prelude::*;
+use smallvec::SmallVec;
 
 use super::groups::Groups;
+use super::lookout::{ONE_PLACE, neighbours};
 use super::{Observer, Phase};
 use crate::colour::Rgb;
 use crate::direct::PatchLight;
@@ -28,25 +30,60 @@ pub(super) struct World<'a> {
 }
 
 /// Evaluates direct light at all vertices that lack it.
-pub(super) fn light(world: World<'_>, mesh: &mut Mesh) {
-    let dark: Vec<usize> =
-        (0..mesh.vertices.len()).filter(|&v| mesh.vertices[v].direct.is_none()).collect();
-    let vertices: Vec<&Vertex> = dark.iter().map(|&v| &mesh.vertices[v]).collect();
-    let lit = world.light.at_vertices(&vertices);
-    for (vertex, direct) in dark.into_iter().zip(lit) {
-        mesh.vertices[vertex].direct = Some(direct);
+///
+/// Vertices of facets that are in one group and nearer to each other than `near`, m, see the same share of it.
+pub(super) fn light(world: World<'_>, mesh: &mut Mesh, near: f64) {
+    let dark: Vec<VertexId> = (0..mesh.vertices.len() as u32)
+        .map(VertexId)
+        .filter(|&v| mesh[v].direct.is_none())
+        .collect();
+    let sets = neighbours((mesh, world.groups), near, &dark);
+    let lit: Vec<SmallVec<[Direct; 1]>> =
+        sets.par_iter().map(|set| light_together(world, mesh, set)).collect();
+    for (vertex, direct) in sets.iter().flatten().zip(lit.iter().flatten()) {
+        mesh.vertices[vertex.index()].direct = Some(*direct);
     }
 }
 
+/// Direct light at vertices next to each other: what the one that it reaches best sees of it, all do.
+fn light_together(
+    World { light, .. }: World<'_>,
+    mesh: &Mesh,
+    vertices: &[VertexId],
+) -> SmallVec<[Direct; 1]> {
+    let at = |v: VertexId| light.at(mesh[v].patch, mesh[v].site);
+    if let &[vertex] = vertices {
+        return SmallVec::from_buf([at(vertex)]);
+    }
+    let open = |v: VertexId| light.unoccluded(mesh[v].patch, mesh[v].site);
+    let most = |&&a: &&VertexId, &&b: &&VertexId| strength(open(a)).total_cmp(&strength(open(b)));
+    let best = vertices.iter().max_by(most).map_or_else(Direct::default, |&v| at(v));
+    let reached = best.unoccluded.cmpgt(Rgb::ZERO);
+    let share = Rgb::select(reached, best.irradiance / best.unoccluded, Rgb::ONE);
+    let direct = |&v: &VertexId| {
+        let unoccluded = open(v);
+        Direct { irradiance: unoccluded * share, unoccluded }
+    };
+    vertices.iter().map(direct).collect()
+}
+
 /// Evaluates direct light at the corners of all leaves, and in their middle, as their means need.
-pub(super) fn light_leaves(world: World<'_>, mesh: &mut Mesh) {
+pub(super) fn light_leaves(world: World<'_>, settings: &Settings, mesh: &mut Mesh) {
     // Facets are so small that their corners tell enough.
     let is_whole = |&leaf: &ElementId| !world.groups.holds(mesh[leaf].patch);
     let leaves: Vec<ElementId> = mesh.leaves().filter(is_whole).collect();
     for leaf in leaves {
         mesh.middle(leaf);
     }
-    light(world, mesh);
+    light(world, mesh, nearness(world, settings));
+}
+
+/// Vertices of facets nearer to each other than this, m, are looked at as one: half the shortest side.
+pub(super) fn nearness(world: World<'_>, settings: &Settings) -> f64 {
+    0.5 * settings
+        .min_element
+        .metres(world.surfaces.extent)
+        .max(ONE_PLACE * world.surfaces.tolerance)
 }
 
 /// True for small facets that are lit evenly, as their neighbours will be: no shadow edge is looked for that
@@ -68,7 +105,8 @@ pub(super) fn refine(
     if observer.tell(Phase::Direct, 0.0).is_break() {
         return;
     }
-    light(world, mesh);
+    let near = nearness(world, settings);
+    light(world, mesh, near);
     if settings.uniform.is_some() {
         return;
     }
@@ -90,7 +128,7 @@ pub(super) fn refine(
                 && !is_even_facet((world.groups, mesh), &oracle, e)
         });
         let middles: Vec<Middle> = candidates.iter().map(|&e| mesh.middle(e)).collect();
-        light(world, mesh);
+        light(world, mesh, near);
         let judged = candidates.par_iter().zip(&middles);
         let verdicts: Vec<Option<Split>> = judged
             .map(|(&e, middle)| divide((world, mesh), (&oracle, &lines), e, middle))

@@ -2,13 +2,14 @@
 //!
 //! Facets of a fine mesh are surfaces of their own, and so patches of their own, far more than the exchange
 //! of light needs. Joined where they hang together and face about the same way, they shoot as one, after the
-//! clusters of [Smits, Arvo and Greenberg 1994]; each still receives for itself.
+//! clusters of [Smits, Arvo and Greenberg 1994], and what they receive of each other's light they share evenly.
+//! What comes straight from emitters, and what is gathered at last, each facet has for itself.
 //!
 //! [Smits, Arvo and Greenberg 1994]: https://doi.org/10.1145/192161.192277
 
 use glam::DVec3;
 
-use crate::mesh::{Mesh, Patch, PatchId};
+use crate::mesh::{ElementId, Mesh, Patch, PatchId};
 use crate::settings::Settings;
 use crate::surface::{Surfaces, Weld};
 
@@ -28,6 +29,8 @@ pub(super) struct Groups {
     members: Vec<Vec<PatchId>>,
     /// By patch.
     of: Vec<u32>,
+    /// By group: the middle of the box around its patches' centres, m, and that box's diagonal, m.
+    places: Vec<(DVec3, f64)>,
 }
 
 impl Groups {
@@ -38,7 +41,8 @@ impl Groups {
             surfaces.list.iter().map(|surface| surface.extent() <= SMALL * size).collect();
         let is_facet = |patch: &Patch| facets[patch.surface as usize];
         let corners = Corners::new(mesh, is_facet, surfaces.tolerance);
-        let mut groups = Self { members: Vec::new(), of: vec![u32::MAX; mesh.patches.len()] };
+        let of = vec![u32::MAX; mesh.patches.len()];
+        let mut groups = Self { members: Vec::new(), of, places: Vec::new() };
         for (index, patch) in mesh.patches.iter().enumerate() {
             if groups.of[index] == u32::MAX {
                 let seed = PatchId(index as u32);
@@ -69,6 +73,8 @@ impl Groups {
             next += 1;
         }
         members.sort_unstable();
+        let [low, high] = bounds(mesh, &members);
+        self.places.push((low.midpoint(high), low.distance(high)));
         self.members.push(members);
     }
 
@@ -85,6 +91,21 @@ impl Groups {
     /// The group of a patch.
     pub(super) fn of(&self, patch: PatchId) -> usize {
         self.of[patch.index()] as usize
+    }
+
+    /// The element to which links of a group of several patches are tied: its first patch's.
+    pub(super) fn receiver(&self, mesh: &Mesh, group: usize) -> ElementId {
+        mesh[self.members[group][0]].root
+    }
+
+    /// The middle of a group, m.
+    pub(super) fn centre(&self, group: usize) -> DVec3 {
+        self.places[group].0
+    }
+
+    /// How far apart the centres of its patches are, m.
+    pub(super) fn size(&self, group: usize) -> f64 {
+        self.places[group].1
     }
 
     /// True if a patch is one of several in its group.

@@ -15,7 +15,7 @@ use crate::surface::{Surfaces, Weld};
 const LIFT: f64 = 50.0;
 
 /// Vertices nearer to each other than this many tolerances are at one place.
-const ONE_PLACE: f64 = 200.0;
+pub(super) const ONE_PLACE: f64 = 200.0;
 
 /// Cosine of the angle from the normal beyond which light is taken for less grazing than it is.
 const GRAZING: f64 = 0.1;
@@ -36,7 +36,17 @@ pub(super) fn lookouts(
     near: f64,
     vertices: &[VertexId],
 ) -> Vec<Lookout> {
-    let mut weld = Weld::new(near.max(ONE_PLACE * surfaces.tolerance));
+    let sets = neighbours((mesh, groups), near.max(ONE_PLACE * surfaces.tolerance), vertices);
+    sets.into_iter().map(|set| Lookout::new((surfaces, mesh), set)).collect()
+}
+
+/// Vertices, those of facets together that are in one group and `near` each other, m.
+pub(super) fn neighbours(
+    (mesh, groups): (&Mesh, &Groups),
+    near: f64,
+    vertices: &[VertexId],
+) -> Vec<SmallVec<[VertexId; 1]>> {
+    let mut weld = Weld::new(near);
     let mut shared: BTreeMap<(usize, u32), usize> = BTreeMap::new();
     let mut sets: Vec<SmallVec<[VertexId; 1]>> = Vec::new();
     for &vertex in vertices {
@@ -50,7 +60,7 @@ pub(super) fn lookouts(
         sets.resize(sets.len().max(set + 1), SmallVec::new());
         sets[set].push(vertex);
     }
-    sets.into_iter().map(|set| Lookout::new((surfaces, mesh), set)).collect()
+    sets
 }
 
 impl Lookout {

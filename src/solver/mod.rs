@@ -180,7 +180,7 @@ pub fn solve_in_stages(
     let world = World { surfaces, occluders: light.occluders(), light: &light, groups: &groups };
 
     direct_pass::refine(world, settings, &mut mesh, &mut observer);
-    direct_pass::light_leaves(world, &mut mesh);
+    direct_pass::light_leaves(world, settings, &mut mesh);
     let stages = stages::stages(world, settings, (&mesh, shots), &mut observer)?;
     let mut exchange = Exchange::new(world, settings, &mesh, &mut observer)?;
     let (gathered, gathering) = if exchange.stop == Stop::Converged {
@@ -216,7 +216,7 @@ fn gather(
     let mut gatherer = Gatherer::new(scene, settings, exchange.sources(mesh), fine);
     for round in 1..=ROUNDS {
         indirect_pass::refine((settings, &oracle), &mut gatherer, mesh, observer);
-        direct_pass::light_leaves(world, mesh);
+        direct_pass::light_leaves(world, settings, mesh);
         if round < ROUNDS && observer.flow.is_continue() {
             indirect_pass::interpolate(mesh);
             gatherer.replace_sources(mesh, Sources::of_vertices(mesh));

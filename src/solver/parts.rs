@@ -1,7 +1,6 @@
 //! Groups of facets as shooters, and as what a hemicube sees.
 
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
 
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -12,9 +11,6 @@ use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::{Cover, Hemicube, Sight, turn};
 use crate::mesh::{ElementId, Mesh, Patch, PatchId};
 use crate::surface::Surfaces;
-
-/// Facets farther away than this many of their radii are points.
-const FAR: f64 = 8.0;
 
 /// How often a group is halved at most where something is close: sixteen parts look for themselves.
 const HALVINGS: u32 = 4;
@@ -70,12 +66,10 @@ impl Shot<'_, '_> {
                 row.on_backs += sight.delta * share;
             }
         }
-        let facets = Facets::seen((mesh, groups), hemicube, self.eye);
+        let facets = Facets::seen(groups, hemicube);
         row.on_backs += facets.on_backs * share;
-        for (patch, visible) in facets.fronts {
-            let factor = facet_factor(self.eye, &mesh[patch]);
-            row.factors += 1;
-            self.add(mesh[patch].root, factor * visible, row);
+        for (group, cover) in facets.fronts {
+            self.add(groups.receiver(mesh, group), cover.kept, row);
         }
     }
 
@@ -115,64 +109,44 @@ impl Shot<'_, '_> {
     }
 }
 
-/// Form factor (0..=1) from a point with a unit normal to a facet that faces it, occlusion not included:
-/// cos θ cos θ' A / (π d²) where it is far away, right to the square of its share of the distance.
-fn facet_factor((point, normal): (DVec3, DVec3), facet: &Patch) -> f64 {
-    let centre = centre(facet);
-    let radius = facet.corners.iter().map(|c| c.distance_squared(centre)).fold(0.0, f64::max);
-    let (towards, square) = (centre - point, point.distance_squared(centre));
-    if square < FAR * FAR * radius {
-        return point_to_polygon(point, normal, &facet.corners);
-    }
-    let cosines = towards.dot(normal).max(0.0) * (-towards).dot(facet.normal).max(0.0);
-    cosines * facet.area / (PI * square * square)
-}
-
-/// The facets that a hemicube sees. They may be smaller than its cells: those of a group are visible in
-/// the share that its cells have in all that it covers.
+/// The facets that a hemicube sees, by group: each may be smaller than its cells.
 #[derive(Debug, Default)]
 pub(super) struct Facets {
-    /// Fronts, and the share of each that nothing hides.
-    pub(super) fronts: Vec<(PatchId, f64)>,
+    /// By group, what is seen of its fronts.
+    pub(super) fronts: BTreeMap<usize, Cover>,
     /// Share of the view that their backs fill.
     pub(super) on_backs: f64,
 }
 
 impl Facets {
-    pub(super) fn seen(
-        (mesh, groups): (&Mesh, &Groups),
-        hemicube: &Hemicube<'_>,
-        eye: (DVec3, DVec3),
-    ) -> Self {
-        let mut seen: BTreeMap<usize, Cover> = BTreeMap::new();
+    pub(super) fn seen(groups: &Groups, hemicube: &Hemicube<'_>) -> Self {
         let mut facets = Self::default();
         for cover in hemicube.prints_of(|patch| groups.holds(patch)) {
             if cover.front {
-                let group = seen.entry(groups.of(cover.patch));
-                let sum = group.or_insert(Cover { covered: 0.0, kept: 0.0, ..cover });
+                let none = Cover { covered: 0.0, kept: 0.0, ..cover };
+                let sum = facets.fronts.entry(groups.of(cover.patch)).or_insert(none);
                 sum.covered += cover.covered;
                 sum.kept += cover.kept;
             } else {
                 facets.on_backs += cover.kept;
             }
         }
-        for (group, cover) in seen {
-            let fronts = || {
-                let faces = |&&p: &&PatchId| (eye.0 - mesh[p].corners[0]).dot(mesh[p].normal) > 0.0;
-                groups.members(group).iter().filter(faces).copied()
-            };
-            let factor = |patch: PatchId| facet_factor(eye, &mesh[patch]);
-            let covered =
-                if hemicube.is_by_rays() { fronts().map(factor).sum() } else { cover.covered };
-            let visible = if covered > 0.0 {
-                (cover.kept / covered).min(1.0)
-            } else {
-                hemicube.visible_share(cover.patch, &mesh[cover.patch].corners)
-            };
-            if visible > 0.0 {
-                facets.fronts.extend(fronts().map(|patch| (patch, visible)));
-            }
-        }
+        facets.fronts.retain(|_, cover| cover.kept > 0.0);
         facets
     }
+}
+
+/// Form factor times area, m², from a polygon to a group near it, of which a hemicube over the polygon has seen
+/// this; by reciprocity the sum of those from the facets.
+pub(super) fn exchange_nearby(
+    mesh: &Mesh,
+    polygon: &[DVec3],
+    (members, cover): (&[PatchId], Cover),
+) -> f64 {
+    let factor = |facet: &Patch| {
+        let centre = centre(facet);
+        point_to_polygon(centre, facet.normal, polygon) * facet.area
+    };
+    let visible = if cover.covered > 0.0 { (cover.kept / cover.covered).min(1.0) } else { 0.0 };
+    visible * members.iter().map(|&member| factor(&mesh[member])).sum::<f64>()
 }

@@ -46,6 +46,8 @@ pub(super) struct Shooting<'a> {
     groups: &'a Groups,
     /// By group: its area, m².
     areas: Vec<f64>,
+    /// By group: its mean reflectance.
+    reflectances: Vec<Rgb>,
     /// By patch: its elements, parents before their children.
     trees: Vec<Vec<ElementId>>,
     /// By group: mean radiosity received and not yet shot, W/m².
@@ -82,6 +84,12 @@ impl<'a> Shooting<'a> {
             };
             members(group).map(mean).sum()
         };
+        let reflectance = |group: usize| {
+            let part =
+                |patch: &crate::mesh::Patch| patch.reflectance * share(patch.area, areas[group]);
+            members(group).map(part).sum()
+        };
+        let reflectances = (0..groups.len()).map(reflectance).collect();
         let mut shooting = Self {
             mesh,
             surfaces,
@@ -95,6 +103,7 @@ impl<'a> Shooting<'a> {
             pending: leaves_only(mesh, &light.direct),
             unshot: (0..groups.len()).map(unshot).collect(),
             areas,
+            reflectances,
             remembered: None,
             received: vec![Rgb::ZERO; mesh.elements.len()],
             energy: Energy::default(),
@@ -159,9 +168,21 @@ impl<'a> Shooting<'a> {
             observer.tell(Phase::Shooting, done).is_break().then_some(Stop::Cancelled)
         });
         self.energy.unshot = self.unshot_power();
+        self.spread_over_groups();
         match stop {
             Stop::Diverged => Err(diverged(settings)),
             stop => Ok((stop, history)),
+        }
+    }
+
+    /// Gives all patches of a group what they have received together.
+    fn spread_over_groups(&mut self) {
+        for group in 0..self.groups.len() {
+            let [first, others @ ..] = self.groups.members(group) else { continue };
+            let light = self.received[self.mesh[*first].root.index()];
+            for &other in others {
+                self.received[self.mesh[other].root.index()] = light;
+            }
         }
     }
 
@@ -283,15 +304,15 @@ impl Residuals for Shooting<'_> {
         let row = self.rows[shooter].take().unwrap_or_default();
         let scale = conserve(power * (1.0 - row.escaped - row.on_backs), &row, &radiosity);
         for link in &row.links {
-            let receiver = self.mesh[link.receiver].patch;
-            let patch = &self.mesh[receiver];
             let power = scale * radiosity.of(link.source) * link.exchange;
-            let irradiance = power / self.mesh[link.receiver].area;
-            self.received[link.receiver.index()] += irradiance;
-            self.pending[link.receiver.index()] += irradiance;
-            let group = self.groups.of(receiver);
-            self.unshot[group] += patch.reflectance * power / self.areas[group];
-            self.energy.absorbed += (Rgb::ONE - patch.reflectance) * power;
+            let group = self.groups.of(self.mesh[link.receiver].patch);
+            let shared = self.groups.members(group).len() > 1;
+            let area = if shared { self.areas[group] } else { self.mesh[link.receiver].area };
+            // A group's light is kept with the first of its patches, and spread at last.
+            self.received[link.receiver.index()] += power / area;
+            self.pending[link.receiver.index()] += power / area;
+            self.unshot[group] += self.reflectances[group] * power / self.areas[group];
+            self.energy.absorbed += (Rgb::ONE - self.reflectances[group]) * power;
         }
         self.energy.escaped += power * row.escaped;
         self.energy.on_backs += power * row.on_backs;

@@ -94,10 +94,19 @@ fn row_of_patch(
                 row.on_backs += sight.delta * share;
             }
         }
-        let facets = Facets::seen((mesh, groups), hemicube, eye);
+        let facets = Facets::seen(groups, hemicube);
         row.on_backs += facets.on_backs * share;
-        for (patch, visible) in facets.fronts {
-            Linking { mesh, surfaces, hemicube, patch, visible }.link(source, &mut row);
+        for (group, cover) in facets.fronts {
+            let receiver = groups.receiver(mesh, group);
+            let gap = groups.centre(group).distance(place.centre);
+            // Rays do not tell what a patch covers but its form factor; near ones, projection does.
+            let exchange =
+                if gap < NEAR * (place.size + groups.size(group)) && !hemicube.is_by_rays() {
+                    parts::exchange_nearby(mesh, &place.corners, (groups.members(group), cover))
+                } else {
+                    cover.kept * mesh[source].area
+                };
+            row.links.push(Link { source, receiver, exchange });
         }
     }
     row

@@ -13,8 +13,8 @@ pub type Pieces = SmallVec<[Polygon; 2]>;
 /// Beyond this many pieces a shaft is crowded, and cutting on costs more than sampling.
 const CROWDED: usize = 96;
 
-/// So are more shadows than this, as facets of curved things throw.
-const MANY: usize = 192;
+/// So are so many times more shadows, as facets of curved things throw.
+const MANY: usize = 2;
 
 /// Shadows are sorted by size in lots of this many.
 const BATCH: usize = 64;
@@ -156,7 +156,7 @@ impl Shade {
     }
 
     fn is_crowded(&self) -> bool {
-        self.seen.len() > self.most || self.count > MANY
+        self.seen.len() > self.most || self.count > self.most.saturating_mul(MANY)
     }
 
     /// Takes the shadows out of what is seen, the largest first: it leaves the others little to cut.
