@@ -22,6 +22,9 @@ use crate::visibility::{Facet, HalfSpace, Occluders};
 /// it would be very far away.
 const HIGHEST: f64 = 0.999;
 
+/// Of a crowd of occluders, which of their edges count: those on rims, of at least this length, m.
+pub(super) type Crowd<'a> = Option<(&'a Rims, f64)>;
+
 /// A discontinuity line, perhaps.
 #[derive(Clone, Copy, Debug)]
 pub struct Line {
@@ -36,7 +39,7 @@ impl AreaLamp {
     pub(super) fn lines(
         &self,
         (lamp, receiver): (u32, Facet<'_>),
-        among: (&Occluders, Option<&Rims>),
+        among: (&Occluders, Crowd<'_>),
         occluders: impl Iterator<Item = u32>,
     ) -> impl Iterator<Item = Line> {
         let mut lines = Vec::new();
@@ -52,17 +55,21 @@ impl AreaLamp {
     fn lines_by(
         &self,
         above: &[DVec3],
-        (occluders, rims): (&Occluders, Option<&Rims>),
+        (occluders, crowd): (&Occluders, Crowd<'_>),
         (occluder, receiver): (u32, HalfSpace),
         lines: &mut Vec<[DVec3; 2]>,
     ) {
         let whole = occluders.facet(occluder).corners;
         let between = self.front.clip(&receiver.clip(whole));
+        let length = |k: usize| between[k].distance(between[(k + 1) % between.len()]);
+        let is_long = |k: usize| crowd.is_none_or(|(_, least)| length(k) >= least);
         // What is cut has edges of its own.
-        let rims = rims.filter(|_| between.as_slice() == whole);
+        let rims = crowd.filter(|_| between.as_slice() == whole).map(|(rims, _)| rims);
         for (k, &from) in between.iter().enumerate() {
             let to = between[(k + 1) % between.len()];
-            let bounds = |eye: &&DVec3| rims.is_none_or(|rims| rims.is_rim(occluder, k, **eye));
+            let bounds = |eye: &&DVec3| {
+                is_long(k) && rims.is_none_or(|rims| rims.is_rim(occluder, k, **eye))
+            };
             let eyes = above.iter().filter(bounds);
             lines.extend(eyes.filter_map(|&eye| {
                 let seen = below(eye, receiver, [from, to])?;
@@ -75,7 +82,9 @@ impl AreaLamp {
                 let is_below = |eye: &DVec3| receiver.depth(pivot) < HIGHEST * receiver.depth(*eye);
                 // On the receiver itself, a corner is the beginning of lines, not a line.
                 let stands = receiver.depth(pivot) > f64::EPSILON * pivot.length();
-                let counts = rims.is_none_or(|rims| rims.is_peak(occluder, corner, edge));
+                let n = between.len();
+                let ends = is_long(corner) || is_long((corner + n - 1) % n);
+                let counts = ends && rims.is_none_or(|rims| rims.is_peak(occluder, corner, edge));
                 if stands && counts && edge.iter().all(is_below) {
                     lines.push(edge.map(|eye| project(eye, pivot, receiver)));
                 }

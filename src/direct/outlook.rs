@@ -10,14 +10,19 @@ use super::rims::Rims;
 use super::{AreaLamp, Lamps, punctual};
 use crate::colour::Rgb;
 use crate::mesh::{Direct, Mesh, Patch, PatchId, Vertex};
+use crate::scene::area_vector;
 use crate::visibility::{Facet, Occluders};
 
 /// More occluders than this are found quicker from each place anew.
 const FEW: usize = 32;
 
-/// Of more occluders than this, as of curved things, only the edges on their rims make lines. Of fewer, those
-/// that bound nothing cost little, and are found by what they carry.
+/// Of more occluders than this, as of curved things, only the edges on their rims make lines, and only long
+/// ones. Of fewer, those that bound nothing cost little, and are found by what they carry.
 const MANY: usize = 256;
+
+/// Where occluders are many, edges shorter than this share of the patch's size are those of facets: the shadow
+/// of what they stand for has no kinks, and no element is cut along so short a line.
+const LEAST_EDGE: f64 = 0.25;
 
 /// Direct light on the patches of a mesh.
 #[derive(Debug)]
@@ -107,17 +112,14 @@ impl PatchLight {
     pub fn lines(&self, patch: PatchId) -> Vec<Line> {
         let Outlook { corners, normal, prospects } = &self.outlooks[patch.index()];
         let receiver = Facet::new(corners, *normal);
+        let least = LEAST_EDGE * area_vector(corners).length().sqrt();
         let mut lines = Vec::new();
         for Prospect { lamp: number, between } in prospects {
             let lamp = &self.lamps.areas[*number as usize];
             let between = between.iter().flatten().filter(|_| !lamp.glow.is_sky());
-            let count = between.clone().count();
-            let rims = (count > MANY).then_some(&self.rims);
-            lines.extend(lamp.lines(
-                (*number, receiver),
-                (&self.occluders, rims),
-                between.copied(),
-            ));
+            let crowd = (between.clone().count() > MANY).then_some((&self.rims, least));
+            let among = (&self.occluders, crowd);
+            lines.extend(lamp.lines((*number, receiver), among, between.copied()));
         }
         lines
     }

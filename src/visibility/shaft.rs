@@ -10,11 +10,8 @@ use super::{Occluder, Occluders};
 /// The visible pieces of a polygon; they do not overlap.
 pub type Pieces = SmallVec<[Polygon; 2]>;
 
-/// Beyond this many pieces a shaft is crowded, and cutting on costs more than sampling.
+/// Beyond this many pieces, or shadows, a shaft is crowded, and cutting on costs more than sampling.
 const CROWDED: usize = 96;
-
-/// So are so many times more shadows, as facets of curved things throw.
-const MANY: usize = 2;
 
 /// Shadows are sorted by size in lots of this many.
 const BATCH: usize = 64;
@@ -77,7 +74,7 @@ impl Occluders {
         self.visible_pieces(eye, source, normal, CROWDED)
     }
 
-    /// As [`Self::visible_part`], giving up at more than `most` pieces.
+    /// As [`Self::visible_part`], giving up at more than `most` pieces or shadows.
     pub fn visible_pieces(
         &self,
         eye: DVec3,
@@ -135,7 +132,7 @@ struct Shade {
     shadows: Vec<Shadow>,
     /// Shadows so far.
     count: usize,
-    /// More pieces than this are too many.
+    /// More pieces or shadows than this are too many.
     most: usize,
 }
 
@@ -156,7 +153,7 @@ impl Shade {
     }
 
     fn is_crowded(&self) -> bool {
-        self.seen.len() > self.most || self.count > self.most.saturating_mul(MANY)
+        self.seen.len() > self.most || self.count > self.most
     }
 
     /// Takes the shadows out of what is seen, the largest first: it leaves the others little to cut.
