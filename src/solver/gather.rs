@@ -150,7 +150,7 @@ impl<'a> Gatherer<'a> {
     ) -> Rgb {
         let mut irradiance = Rgb::ZERO;
         self.look(mesh, hemicube, (place, turn), &mut |from: &Arrival<'_>| {
-            irradiance += from.light
+            irradiance += from.light;
         });
         irradiance
     }
@@ -171,7 +171,7 @@ impl<'a> Gatherer<'a> {
         let mut field = LightField::default();
         let (view, factors) =
             self.look(mesh, hemicube, (place, turn), &mut |from: &Arrival<'_>| {
-                field.add(place, from)
+                field.add(place, from);
             });
         let light = |(k, &vertex): (usize, &VertexId)| Gathered {
             irradiance: field.irradiance(normal(vertex)),
