@@ -70,8 +70,8 @@ impl Facts {
                 surfaces.extent
             ));
         }
-        let material =
-            |(number, material)| MaterialFacts::new(scene, material, number, (surfaces, mesh));
+        let shown = shown(scene.materials.len(), surfaces, mesh);
+        let material = |(material, shown)| MaterialFacts::new(scene, material, shown);
         Self {
             scene: path,
             faces: scene.faces.len(),
@@ -80,7 +80,7 @@ impl Facts {
             contact_lines: surfaces.list.iter().map(|surface| surface.contacts.len()).sum(),
             patches: mesh.patches.len(),
             bounds: [low.to_array(), high.to_array()],
-            materials: scene.materials.iter().enumerate().map(material).collect(),
+            materials: scene.materials.iter().zip(shown).map(material).collect(),
             lights: scene.lights.iter().map(LightFacts::from).collect(),
             cameras: scene.cameras.iter().map(CameraRecord::from).collect(),
             notes,
@@ -89,21 +89,8 @@ impl Facts {
 }
 
 impl MaterialFacts {
-    fn new(
-        scene: &Scene,
-        material: &Material,
-        number: usize,
-        (surfaces, mesh): (&Surfaces, &Mesh),
-    ) -> Self {
+    fn new(scene: &Scene, material: &Material, (area, power): (f64, Rgb)) -> Self {
         let texture = |index: Option<u32>| Some(scene.textures.get(index? as usize)?.name.clone());
-        let mut area = 0.0;
-        let mut power = Rgb::ZERO;
-        for patch in &mesh.patches {
-            if surfaces.list[patch.surface as usize].material as usize == number {
-                area += patch.area;
-                power += patch.exitance * patch.area;
-            }
-        }
         Self {
             name: material.name.clone(),
             reflectance: material.reflectance.to_array(),
@@ -116,6 +103,17 @@ impl MaterialFacts {
             flux: luminance(power) * LUMENS_PER_WATT,
         }
     }
+}
+
+/// By material: the area of its surfaces, m², and the power that they emit, W.
+fn shown(materials: usize, surfaces: &Surfaces, mesh: &Mesh) -> Vec<(f64, Rgb)> {
+    let mut shown = vec![(0.0, Rgb::ZERO); materials];
+    for patch in &mesh.patches {
+        let (area, power) = &mut shown[surfaces.list[patch.surface as usize].material as usize];
+        *area += patch.area;
+        *power += patch.exitance * patch.area;
+    }
+    shown
 }
 
 impl From<&NamedLight> for LightFacts {

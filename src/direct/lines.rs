@@ -15,11 +15,15 @@
 use glam::DVec3;
 
 use super::AreaLamp;
-use crate::visibility::{Facet, HalfSpace};
+use super::rims::Rims;
+use crate::visibility::{Facet, HalfSpace, Occluders};
 
 /// An edge as high over the receiver as this share of the lamp's corner throws no shadow worth a line:
 /// it would be very far away.
 const HIGHEST: f64 = 0.999;
+
+/// Of a crowd of occluders, which of their edges count: those on rims, of at least this length, m.
+pub(super) type Crowd<'a> = Option<(&'a Rims, f64)>;
 
 /// A discontinuity line, perhaps.
 #[derive(Clone, Copy, Debug)]
@@ -32,15 +36,16 @@ pub struct Line {
 
 impl AreaLamp {
     /// The lines that occluders make with the part of the lamp, which has this number, above the receiver.
-    pub(super) fn lines<'a>(
+    pub(super) fn lines(
         &self,
         (lamp, receiver): (u32, Facet<'_>),
-        occluders: impl Iterator<Item = &'a [DVec3]>,
+        among: (&Occluders, Crowd<'_>),
+        occluders: impl Iterator<Item = u32>,
     ) -> impl Iterator<Item = Line> {
         let mut lines = Vec::new();
         if let Some(above) = self.above(receiver) {
             occluders.for_each(|occluder| {
-                self.lines_by(&above, occluder, receiver.plane, &mut lines);
+                self.lines_by(&above, among, (occluder, receiver.plane), &mut lines);
             });
         }
         lines.into_iter().map(move |ends| Line { ends, lamp })
@@ -50,25 +55,37 @@ impl AreaLamp {
     fn lines_by(
         &self,
         above: &[DVec3],
-        occluder: &[DVec3],
-        receiver: HalfSpace,
+        (occluders, crowd): (&Occluders, Crowd<'_>),
+        (occluder, receiver): (u32, HalfSpace),
         lines: &mut Vec<[DVec3; 2]>,
     ) {
-        let between = self.front.clip(&receiver.clip(occluder));
+        let whole = occluders.facet(occluder).corners;
+        let between = self.front.clip(&receiver.clip(whole));
+        let length = |k: usize| between[k].distance(between[(k + 1) % between.len()]);
+        let is_long = |k: usize| crowd.is_none_or(|(_, least)| length(k) >= least);
+        // What is cut has edges of its own.
+        let rims = crowd.filter(|_| between.as_slice() == whole).map(|(rims, _)| rims);
         for (k, &from) in between.iter().enumerate() {
             let to = between[(k + 1) % between.len()];
-            lines.extend(above.iter().filter_map(|&eye| {
+            let bounds = |eye: &&DVec3| {
+                is_long(k) && rims.is_none_or(|rims| rims.is_rim(occluder, k, **eye))
+            };
+            let eyes = above.iter().filter(bounds);
+            lines.extend(eyes.filter_map(|&eye| {
                 let seen = below(eye, receiver, [from, to])?;
                 Some(seen.map(|p| project(eye, p, receiver)))
             }));
         }
-        for &pivot in &between {
+        for (corner, &pivot) in between.iter().enumerate() {
             for (k, &from) in above.iter().enumerate() {
                 let edge = [from, above[(k + 1) % above.len()]];
                 let is_below = |eye: &DVec3| receiver.depth(pivot) < HIGHEST * receiver.depth(*eye);
                 // On the receiver itself, a corner is the beginning of lines, not a line.
                 let stands = receiver.depth(pivot) > f64::EPSILON * pivot.length();
-                if stands && edge.iter().all(is_below) {
+                let n = between.len();
+                let ends = is_long(corner) || is_long((corner + n - 1) % n);
+                let counts = ends && rims.is_none_or(|rims| rims.is_peak(occluder, corner, edge));
+                if stands && counts && edge.iter().all(is_below) {
                     lines.push(edge.map(|eye| project(eye, pivot, receiver)));
                 }
             }

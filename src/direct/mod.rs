@@ -6,6 +6,7 @@ mod glimpse;
 mod lines;
 mod outlook;
 mod punctual;
+mod rims;
 mod sky;
 mod tally;
 
@@ -232,6 +233,16 @@ impl AreaLamp {
         );
         let (irradiance, unoccluded) = (self.exitance * seen.min(all), self.exitance * all);
         Some(Arriving { light: Direct { irradiance, unoccluded }, rays })
+    }
+
+    /// What would arrive at a place with a unit normal if nothing stood between, W/m².
+    fn unoccluded(&self, receiver: (DVec3, DVec3)) -> Rgb {
+        let above = self.reach(receiver.0, receiver.1);
+        if above.is_empty() {
+            Rgb::ZERO
+        } else {
+            self.exitance * self.glow.weight(receiver, &above)
+        }
     }
 
     /// The part above the horizon of a place in front of the lamp.

@@ -6,12 +6,23 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::lines::Line;
-use super::{AreaLamp, Lamps};
+use super::rims::Rims;
+use super::{AreaLamp, Lamps, punctual};
+use crate::colour::Rgb;
 use crate::mesh::{Direct, Mesh, Patch, PatchId, Vertex};
+use crate::scene::area_vector;
 use crate::visibility::{Facet, Occluders};
 
 /// More occluders than this are found quicker from each place anew.
 const FEW: usize = 32;
+
+/// Of more occluders than this, as of curved things, only the edges on their rims make lines, and only long
+/// ones. Of fewer, those that bound nothing cost little, and are found by what they carry.
+const MANY: usize = 256;
+
+/// Where occluders are many, edges shorter than this share of the patch's size are those of facets: the shadow
+/// of what they stand for has no kinks, and no element is cut along so short a line.
+const LEAST_EDGE: f64 = 0.25;
 
 /// Direct light on the patches of a mesh.
 #[derive(Debug)]
@@ -20,6 +31,7 @@ pub struct PatchLight {
     occluders: Occluders,
     /// By patch.
     outlooks: Vec<Outlook>,
+    rims: Rims,
 }
 
 #[derive(Debug)]
@@ -44,7 +56,8 @@ impl PatchLight {
     pub fn new(lamps: Lamps, occluders: Occluders, mesh: &Mesh) -> Self {
         let outlook = |patch: &Patch| Outlook::new(&lamps, &occluders, patch);
         let outlooks = mesh.patches.par_iter().map(outlook).collect();
-        Self { lamps, occluders, outlooks }
+        let rims = Rims::new(&occluders);
+        Self { lamps, occluders, outlooks, rims }
     }
 
     /// Where it comes from.
@@ -60,6 +73,17 @@ impl PatchLight {
     /// What arrives at a place on a patch.
     pub fn at(&self, patch: PatchId, place: DVec3) -> Direct {
         self.by(patch, place, |_| true) + self.points_at(patch, place)
+    }
+
+    /// What would arrive at a place on a patch if nothing stood between, W/m².
+    pub fn unoccluded(&self, patch: PatchId, place: DVec3) -> Rgb {
+        let Outlook { normal, prospects, .. } = &self.outlooks[patch.index()];
+        let areas = prospects
+            .iter()
+            .map(|prospect| self.lamps.areas[prospect.lamp as usize].unoccluded((place, *normal)));
+        let points = self.lamps.points.iter();
+        let points = points.filter_map(|point| punctual::irradiance(point, place, *normal));
+        areas.sum::<Rgb>() + points.map(|(irradiance, _)| irradiance).sum::<Rgb>()
     }
 
     /// What arrives at vertices, in their order.
@@ -88,12 +112,14 @@ impl PatchLight {
     pub fn lines(&self, patch: PatchId) -> Vec<Line> {
         let Outlook { corners, normal, prospects } = &self.outlooks[patch.index()];
         let receiver = Facet::new(corners, *normal);
+        let least = LEAST_EDGE * area_vector(corners).length().sqrt();
         let mut lines = Vec::new();
         for Prospect { lamp: number, between } in prospects {
             let lamp = &self.lamps.areas[*number as usize];
             let between = between.iter().flatten().filter(|_| !lamp.glow.is_sky());
-            let polygons = between.map(|&occluder| self.occluders.corners(occluder));
-            lines.extend(lamp.lines((*number, receiver), polygons));
+            let crowd = (between.clone().count() > MANY).then_some((&self.rims, least));
+            let among = (&self.occluders, crowd);
+            lines.extend(lamp.lines((*number, receiver), among, between.copied()));
         }
         lines
     }

@@ -40,6 +40,24 @@ pub fn point_to_polygon_above(point: DVec3, normal: DVec3, polygon: &[DVec3]) ->
     (sum / (2.0 * PI)).abs()
 }
 
+/// The vector whose product with any unit normal is the form factor from a point with that normal to the part
+/// of a polygon above the horizon of this `normal`, as long as all of that part is above both horizons.
+///
+/// The same sum as [`point_to_polygon`], without the product: the light vector of [Arvo 1994].
+///
+/// [Arvo 1994]: https://doi.org/10.1145/192161.192250
+pub fn vector_to_polygon(point: DVec3, normal: DVec3, polygon: &[DVec3]) -> DVec3 {
+    let above = HalfSpace::new(point, normal).clip(polygon);
+    let edge = |k: usize| {
+        let (a, b) = (above[k] - point, above[(k + 1) % above.len()] - point);
+        let cross = a.cross(b);
+        let sine = cross.length();
+        if sine > f64::MIN_POSITIVE { cross * (sine.atan2(a.dot(b)) / sine) } else { DVec3::ZERO }
+    };
+    let sum = (0..above.len()).map(edge).sum::<DVec3>() / (2.0 * PI);
+    if sum.dot(normal) < 0.0 { -sum } else { sum }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -57,6 +75,22 @@ mod tests {
         let polygon = polygon.map(|(x, y)| DVec3::new(x, y, 1.5));
         let f = point_to_polygon(DVec3::ZERO, DVec3::Z, &polygon);
         assert!((f - corner_rectangle(3.0, 2.0, 1.5)).abs() < 1e-12, "{f}");
+    }
+
+    #[test]
+    fn one_vector_has_the_factors_of_many_normals() {
+        let polygon = [(0.3, -0.4, 1.0), (0.5, 0.6, 1.2), (-0.7, 0.2, 0.9)];
+        let polygon = polygon.map(|(x, y, z)| DVec3::new(x, y, z));
+        let vector = vector_to_polygon(DVec3::ZERO, DVec3::Z, &polygon);
+        for (x, y) in [(0.0, 0.0), (0.3, 0.1), (-0.2, 0.4), (0.1, -0.5)] {
+            let normal = DVec3::new(x, y, 1.0).normalize();
+            let factor = point_to_polygon(DVec3::ZERO, normal, &polygon);
+            assert!((vector.dot(normal) - factor).abs() < 1e-12, "{normal}: {factor}");
+        }
+        let below = polygon.map(|p| p - DVec3::Z);
+        let factor = point_to_polygon(DVec3::ZERO, DVec3::Z, &below);
+        let vector = vector_to_polygon(DVec3::ZERO, DVec3::Z, &below);
+        assert!((vector.z - factor).abs() < 1e-12, "{factor}");
     }
 
     #[test]

@@ -29,6 +29,9 @@ const SIZE_RANGE: [f64; 2] = [0.1, 5.0];
 /// Elements of less than this share of the square of the shortest side are not divided.
 const LEAST_AREA: f64 = 0.25;
 
+/// Elements of fewer shortest sides than this are small.
+const FEW_SIDES: f64 = 4.0;
+
 /// Light straight from emitters is held to this share of the tolerance: it has the edges that eyes look
 /// for, and costs little to evaluate.
 const DIRECT_SHARE: f64 = 1.0 / 3.0;
@@ -115,6 +118,26 @@ impl Oracle {
             .then(|| self.halving(mesh.sides(element), &errors, allowed))
             .flatten();
         Some(halves.unwrap_or(round))
+    }
+
+    /// True if the `light` (W/m² of radiosity) at the corners of an element differs by less than the error that it
+    /// is allowed: a facet among others like it then shows well enough how light varies.
+    pub fn is_even(
+        &self,
+        (mesh, element): (&Mesh, ElementId),
+        light: impl Fn(&Vertex) -> Rgb,
+    ) -> bool {
+        let corners: SmallVec<[Rgb; 4]> =
+            mesh[element].corners.iter().map(|&v| light(&mesh[v])).collect();
+        let low = corners.iter().copied().fold(Rgb::INFINITY, Rgb::min);
+        let high = corners.iter().copied().fold(Rgb::NEG_INFINITY, Rgb::max);
+        strength(high - low) <= self.allowed(mesh, element, &corners)
+    }
+
+    /// True if the sides of an element are only few times as long as the shortest that refinement may make.
+    pub fn is_small(&self, mesh: &Mesh, element: ElementId) -> bool {
+        let [width, height] = mesh.sides(element);
+        width.max(height) < FEW_SIDES * self.min_element
     }
 
     /// The error of interpolation found in the middle of an element, as a share of what it is allowed.

@@ -7,6 +7,7 @@
 use std::ops::ControlFlow;
 
 use super::direct_pass::{self, World};
+use super::groups::Groups;
 use super::{
     Checkpoint, ElementLight, Energy, Exchange, Observer, Progress, Solution, Stop, Work,
     check_reflectances, indirect_pass, lamps_on, reflect,
@@ -22,6 +23,7 @@ use crate::surface::Surfaces;
 struct Alone<'a> {
     surfaces: &'a Surfaces,
     light: PatchLight,
+    groups: Groups,
     /// By patch, W/m².
     exitance: Vec<Rgb>,
     /// By vertex: direct light, and irradiance by reflected light, W/m².
@@ -51,23 +53,23 @@ pub fn solve_by_light(
     let mut mesh = Mesh::new(&scenes[0].0, settings);
     for alone in &mut alone {
         alone.take_over(&mut mesh);
-        direct_pass::refine(alone.world(), settings, &mut mesh, &mut observer);
+        direct_pass::refine(alone.world(settings), settings, &mut mesh, &mut observer);
         alone.leave(&mesh);
     }
     let mut exchanges = Vec::new();
     for alone in &mut alone {
         alone.take_over(&mut mesh);
-        direct_pass::light_leaves(alone.world(), &mut mesh, &mut observer);
-        let mut exchange = Exchange::new(alone.world(), settings, &mesh, &mut observer)?;
+        direct_pass::light_leaves(alone.world(settings), &mut mesh, &mut observer);
+        let mut exchange = Exchange::new(alone.world(settings), settings, &mesh, &mut observer)?;
         let (gathered, work) =
-            reflect(alone.world(), settings, (&mut mesh, &mut exchange), &mut observer);
+            reflect(alone.world(settings), settings, (&mut mesh, &mut exchange), &mut observer);
         exchanges.push((exchange, gathered, work));
         alone.leave(&mesh);
     }
     let finish = |(alone, (exchange, gathered, work)): (&Alone<'_>, (Exchange, usize, Work))| {
         let mut mesh = mesh.clone();
         alone.take_over(&mut mesh);
-        direct_pass::light_leaves(alone.world(), &mut mesh, &mut observer);
+        direct_pass::light_leaves(alone.world(settings), &mut mesh, &mut observer);
         // It has done without the elements that other lights asked for later.
         indirect_pass::interpolate(&mut mesh);
         exchange.solution(mesh, gathered, work)
@@ -83,12 +85,13 @@ impl<'a> Alone<'a> {
         let mesh = Mesh::new(surfaces, settings);
         check_reflectances(surfaces, &mesh)?;
         let light = lamps_on(surfaces, settings, &mesh)?;
+        let groups = Groups::new(surfaces, settings, &mesh);
         let exitance = mesh.patches.iter().map(|patch| patch.exitance).collect();
-        Ok(Self { surfaces, light, exitance, known: Vec::new() })
+        Ok(Self { surfaces, light, groups, exitance, known: Vec::new() })
     }
 
-    fn world(&self) -> World<'_> {
-        World::new(self.surfaces, &self.light)
+    fn world(&self, settings: &Settings) -> World<'_> {
+        World::new(self.surfaces, settings, (&self.light, &self.groups))
     }
 
     /// Lights a mesh with what is known of this light, and puts out all other.

@@ -4,7 +4,10 @@ use glam::DVec2;
 use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use smallvec::SmallVec;
 
+use super::groups::Groups;
+use super::lookout::{ONE_PLACE, neighbours};
 use super::{Observer, Phase};
 use crate::colour::Rgb;
 use crate::direct::PatchLight;
@@ -24,22 +27,37 @@ pub(super) struct World<'a> {
     pub(super) surfaces: &'a Surfaces,
     pub(super) occluders: &'a Occluders,
     pub(super) light: &'a PatchLight,
+    /// What shoots as one.
+    pub(super) groups: &'a Groups,
+    /// Vertices of facets nearer to each other than this, m, are looked at as one: half the shortest side.
+    near: f64,
 }
 
 impl<'a> World<'a> {
-    pub(super) fn new(surfaces: &'a Surfaces, light: &'a PatchLight) -> Self {
-        Self { surfaces, occluders: light.occluders(), light }
+    pub(super) fn new(
+        surfaces: &'a Surfaces,
+        settings: &Settings,
+        (light, groups): (&'a PatchLight, &'a Groups),
+    ) -> Self {
+        let shortest = settings.min_element.metres(surfaces.extent);
+        let near = 0.5 * shortest.max(ONE_PLACE * surfaces.tolerance);
+        Self { surfaces, occluders: light.occluders(), light, groups, near }
     }
 }
 
 /// Evaluates direct light at all vertices that lack it.
+///
+/// Vertices of facets that are in one group and near each other see the same share of it.
 pub(super) fn light(world: World<'_>, mesh: &mut Mesh, observer: &mut Observer<'_>) {
-    let dark: Vec<usize> =
-        (0..mesh.vertices.len()).filter(|&v| mesh.vertices[v].direct.is_none()).collect();
-    let shine = |&v: &usize| world.light.at(mesh.vertices[v].patch, mesh.vertices[v].site);
-    let lit = evaluate(world.light, &dark, shine, observer);
-    for (vertex, direct) in dark.into_iter().zip(lit) {
-        mesh.vertices[vertex].direct = Some(direct);
+    let dark: Vec<VertexId> = (0..mesh.vertices.len() as u32)
+        .map(VertexId)
+        .filter(|&v| mesh[v].direct.is_none())
+        .collect();
+    let sets = neighbours((mesh, world.groups), world.near, &dark);
+    let shine = |set: &SmallVec<_>| light_together(world, mesh, set);
+    let lit: Vec<SmallVec<[Direct; 1]>> = evaluate(world.light, &sets, shine, observer);
+    for (vertex, direct) in sets.iter().flatten().zip(lit.iter().flatten()) {
+        mesh.vertices[vertex.index()].direct = Some(*direct);
     }
 }
 
@@ -59,13 +77,46 @@ fn evaluate<T: Sync, R: Send + Serialize + DeserializeOwned>(
     batches.into_iter().flat_map(|(results, _)| results).collect()
 }
 
-/// Evaluates direct light at the corners and in the middle of all leaves, as their means need.
+/// Direct light at vertices next to each other: what the one that it reaches best sees of it, all do.
+fn light_together(
+    World { light, .. }: World<'_>,
+    mesh: &Mesh,
+    vertices: &[VertexId],
+) -> SmallVec<[Direct; 1]> {
+    let at = |v: VertexId| light.at(mesh[v].patch, mesh[v].site);
+    if let &[vertex] = vertices {
+        return SmallVec::from_buf([at(vertex)]);
+    }
+    let open = |v: VertexId| light.unoccluded(mesh[v].patch, mesh[v].site);
+    let most = |&&a: &&VertexId, &&b: &&VertexId| strength(open(a)).total_cmp(&strength(open(b)));
+    let best = vertices.iter().max_by(most).map_or_else(Direct::default, |&v| at(v));
+    let reached = best.unoccluded.cmpgt(Rgb::ZERO);
+    let share = Rgb::select(reached, best.irradiance / best.unoccluded, Rgb::ONE);
+    let direct = |&v: &VertexId| {
+        let unoccluded = open(v);
+        Direct { irradiance: unoccluded * share, unoccluded }
+    };
+    vertices.iter().map(direct).collect()
+}
+
+/// Evaluates direct light at the corners of all leaves, and in their middle, as their means need.
 pub(super) fn light_leaves(world: World<'_>, mesh: &mut Mesh, observer: &mut Observer<'_>) {
-    let leaves: Vec<ElementId> = mesh.leaves().collect();
+    // Facets are so small that their corners tell enough.
+    let is_whole = |&leaf: &ElementId| !world.groups.holds(mesh[leaf].patch);
+    let leaves: Vec<ElementId> = mesh.leaves().filter(is_whole).collect();
     for leaf in leaves {
         mesh.middle(leaf);
     }
     light(world, mesh, observer);
+}
+
+/// True for small facets that are lit evenly, as their neighbours will be: no shadow edge is looked for that
+/// would be hardly longer than the shortest side.
+fn is_even_facet((groups, mesh): (&Groups, &Mesh), oracle: &Oracle, element: ElementId) -> bool {
+    let patch = mesh[element].patch;
+    let light =
+        |vertex: &Vertex| mesh[patch].reflectance * vertex.direct.unwrap_or_default().irradiance;
+    groups.holds(patch) && oracle.is_small(mesh, element) && oracle.is_even((mesh, element), light)
 }
 
 /// Refines the mesh until direct light can be interpolated; leaves a uniform mesh as it is.
@@ -94,7 +145,11 @@ pub(super) fn refine(
         if observer.tell(Phase::Direct, share).is_break() {
             return;
         }
-        candidates.retain(|&e| oracle.may_divide(mesh, e) && reflects(mesh, e));
+        candidates.retain(|&e| {
+            oracle.may_divide(mesh, e)
+                && reflects(mesh, e)
+                && !is_even_facet((world.groups, mesh), &oracle, e)
+        });
         let middles: Vec<Middle> = candidates.iter().map(|&e| mesh.middle(e)).collect();
         light(world, mesh, observer);
         let judged: Vec<(ElementId, &Middle)> = candidates.iter().copied().zip(&middles).collect();

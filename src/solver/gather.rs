@@ -12,11 +12,14 @@ use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use super::Observer;
+use super::groups::Groups;
+use super::lookout::{Arrival, LightField, Lookout, lookouts};
 use super::sources::{Piece, Sources};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
-use crate::form_factor::hemicube::{DeltaFactors, Hemicube, Sight, Targets, turn};
+use crate::form_factor::hemicube::{Cover, DeltaFactors, Hemicube, Sight, Targets, turn};
 use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
+use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
 
@@ -49,6 +52,9 @@ struct Gathered {
 pub(super) struct Gatherer<'a> {
     surfaces: &'a Surfaces,
     occluders: &'a Occluders,
+    groups: &'a Groups,
+    /// Vertices of a group of facets nearer to each other than this, m, have one view.
+    near: f64,
     sources: Sources,
     delta: DeltaFactors,
     /// Elements whose parts may change a result by more than this, W/m², are taken in parts.
@@ -63,7 +69,8 @@ pub(super) struct Gatherer<'a> {
 
 impl<'a> Gatherer<'a> {
     pub(super) fn new(
-        (surfaces, occluders): (&'a Surfaces, &'a Occluders),
+        (surfaces, occluders, groups): (&'a Surfaces, &'a Occluders, &'a Groups),
+        settings: &Settings,
         sources: Sources,
         fine: f64,
     ) -> Self {
@@ -71,6 +78,8 @@ impl<'a> Gatherer<'a> {
         Self {
             surfaces,
             occluders,
+            groups,
+            near: 0.5 * settings.min_element.metres(surfaces.extent),
             sources,
             delta,
             fine,
@@ -92,16 +101,18 @@ impl<'a> Gatherer<'a> {
         dark.sort_unstable();
         dark.dedup();
         let targets = Targets::new(&mesh.patches);
-        let lit: Vec<Vec<Gathered>> = observer.evaluate(&dark, |batch| {
+        let lookouts = lookouts((self.surfaces, mesh, self.groups), self.near, &dark);
+        let lit: Vec<Vec<Vec<Gathered>>> = observer.evaluate(&lookouts, |batch| {
             let hemicube = || Hemicube::new(&self.delta, &targets, self.occluders);
             let gather =
-                |hemicube: &mut Hemicube<'_>, &v: &VertexId| self.gather(mesh, hemicube, v);
+                |hemicube: &mut Hemicube<'_>, lookout| self.gather(mesh, hemicube, lookout);
             batch.par_iter().map_init(hemicube, gather).collect()
         });
-        self.gathered += dark.len();
+        self.gathered += lookouts.len();
         self.views.resize(mesh.vertices.len(), None);
+        let vertices = lookouts.iter().flat_map(|lookout| &lookout.vertices);
         for (&vertex, Gathered { irradiance, view, factors }) in
-            dark.iter().zip(lit.into_iter().flatten())
+            vertices.zip(lit.into_iter().flatten().flatten())
         {
             self.factors += factors;
             mesh.vertices[vertex.index()].indirect = Some(irradiance);
@@ -126,6 +137,11 @@ impl<'a> Gatherer<'a> {
         }
     }
 
+    /// What of the mesh is in groups.
+    pub(super) fn groups(&self) -> &'a Groups {
+        self.groups
+    }
+
     /// The delta factors of the hemicubes that it looks through.
     pub(super) fn delta(&self) -> &DeltaFactors {
         &self.delta
@@ -139,47 +155,79 @@ impl<'a> Gatherer<'a> {
         place: (DVec3, DVec3),
         turn: f64,
     ) -> Rgb {
-        self.look(mesh, hemicube, place, turn).irradiance
+        let mut irradiance = Rgb::ZERO;
+        self.look(mesh, hemicube, (place, turn), &mut |from: &Arrival<'_>| {
+            irradiance += from.light;
+        });
+        irradiance
     }
 
-    /// Irradiance of a vertex by all reflected light, and what it saw.
-    fn gather(&self, mesh: &Mesh, hemicube: &mut Hemicube<'_>, vertex: VertexId) -> Gathered {
-        let normal = self.surfaces.list[mesh[vertex].surface as usize].plane.normal;
-        self.look(mesh, hemicube, (mesh[vertex].site, normal), turn(vertex.index() as f64))
+    /// Irradiance of the vertices of a lookout by all reflected light, and what they saw.
+    fn gather(&self, mesh: &Mesh, hemicube: &mut Hemicube<'_>, lookout: &Lookout) -> Vec<Gathered> {
+        let turn = turn(lookout.vertices[0].index() as f64);
+        let place = (lookout.eye, lookout.normal);
+        let normal = |v: VertexId| self.surfaces.list[mesh[v].surface as usize].plane.normal;
+        if lookout.vertices.len() == 1 {
+            let mut irradiance = Rgb::ZERO;
+            let (view, factors) =
+                self.look(mesh, hemicube, (place, turn), &mut |from: &Arrival<'_>| {
+                    irradiance += from.light;
+                });
+            return vec![Gathered { irradiance, view, factors }];
+        }
+        let mut field = LightField::default();
+        let (view, factors) =
+            self.look(mesh, hemicube, (place, turn), &mut |from: &Arrival<'_>| {
+                field.add(place, from);
+            });
+        let light = |(k, &vertex): (usize, &VertexId)| Gathered {
+            irradiance: field.irradiance(normal(vertex)),
+            view: view.clone(),
+            factors: if k == 0 { factors } else { 0 },
+        };
+        lookout.vertices.iter().enumerate().map(light).collect()
     }
 
+    /// Tells `arrive` of all reflected light. Returns what fills much of the view, and how many factors that took.
     fn look(
         &self,
         mesh: &Mesh,
         hemicube: &mut Hemicube<'_>,
-        (site, normal): (DVec3, DVec3),
-        turn: f64,
-    ) -> Gathered {
-        let hemicube = hemicube.look((site, normal), turn);
-        let (mut irradiance, mut factors) = (Rgb::ZERO, 0);
-        let mut view = View::new();
-        for sight in hemicube.sights().filter(|sight| sight.front) {
-            let (light, count) = self.receive(mesh, hemicube, (site, normal), sight);
-            irradiance += light;
-            factors += count;
+        (place, turn): ((DVec3, DVec3), f64),
+        arrive: &mut impl FnMut(&Arrival<'_>),
+    ) -> (View, u64) {
+        let hemicube = hemicube.look(place, turn);
+        let (mut factors, mut view) = (0, View::new());
+        let is_whole = |patch: PatchId| !self.groups.holds(patch);
+        for sight in hemicube.sights_of(is_whole).filter(|sight| sight.front) {
+            factors += self.receive(mesh, hemicube, (place, sight), arrive);
             if sight.delta > WIDE {
                 view.push((sight.patch, sight.delta));
             }
         }
-        Gathered { irradiance, view, factors }
+        // Facets are many and small: their cells are all that is to be known of them.
+        let facets = hemicube.prints_of(|patch| !is_whole(patch));
+        for Cover { patch, kept, .. } in facets.filter(|cover| cover.front && cover.kept > 0.0) {
+            let light = self.sources.mean(mesh[patch].root) * kept;
+            arrive(&Arrival { light, corners: &mesh[patch].corners });
+            if kept > WIDE {
+                view.push((patch, kept));
+            }
+        }
+        (view, factors)
     }
 
-    /// Irradiance by one patch, from elements small enough, and how many factors that took.
+    /// Tells `arrive` of the light of one patch, from elements small enough. Returns how many factors that took.
     fn receive(
         &self,
         mesh: &Mesh,
         hemicube: &Hemicube<'_>,
-        (site, normal): (DVec3, DVec3),
-        sight: Sight,
-    ) -> (Rgb, u64) {
+        ((site, normal), sight): ((DVec3, DVec3), Sight),
+        arrive: &mut impl FnMut(&Arrival<'_>),
+    ) -> u64 {
         let surfaces = self.surfaces;
         let plane = &surfaces.list[mesh[sight.patch].surface as usize].plane;
-        let (mut irradiance, mut factors) = (Rgb::ZERO, 0);
+        let mut factors = 0;
         let mut open: SmallVec<[ElementId; 32]> = SmallVec::new();
         let root = mesh[sight.patch].root;
         open.push(root);
@@ -203,13 +251,14 @@ impl<'a> Gatherer<'a> {
             if varies {
                 let piece = self.sources.piece(mesh, surfaces, source);
                 let (light, count) = self.piece_light((site, normal), (&piece, factor), DEEPEST);
-                irradiance += visible * light;
+                arrive(&Arrival { light: visible * light, corners: &corners });
                 factors += count;
             } else {
-                irradiance += visible * (self.sources.mean(source) * factor);
+                let light = visible * (self.sources.mean(source) * factor);
+                arrive(&Arrival { light, corners: &corners });
             }
         }
-        (irradiance, factors)
+        factors
     }
 
     /// Irradiance by a piece of a leaf with this form factor, divided while its variation matters, and

@@ -2,6 +2,7 @@
 
 use super::direct_pass::reflects;
 use super::gather::Gatherer;
+use super::groups::Groups;
 use super::{Observer, Phase};
 use crate::colour::Rgb;
 use crate::mesh::{ElementId, Mesh, Middle, Split, Vertex, VertexId};
@@ -33,13 +34,23 @@ pub(super) fn refine(
         if observer.tell(Phase::Gathering, share).is_break() {
             return;
         }
-        candidates.retain(|&e| !mesh[e].is_leaf() || oracle.may_divide(mesh, e));
+        candidates.retain(|&e| {
+            (!mesh[e].is_leaf() || oracle.may_divide(mesh, e))
+                && !is_even_facet((gatherer.groups(), mesh), oracle, e)
+        });
         let middles: Vec<Middle> = candidates.iter().map(|&e| mesh.middle(e)).collect();
         let mut places = corners(mesh, &candidates);
         places.extend(middles.iter().flat_map(|m| m.edges.iter().copied().chain([m.centre])));
         gatherer.light(mesh, places, observer);
         candidates = divide(oracle, mesh, &candidates, &middles);
     }
+}
+
+/// True for facets over which indirect light is even: what is between their corners need not be looked at.
+fn is_even_facet((groups, mesh): (&Groups, &Mesh), oracle: &Oracle, element: ElementId) -> bool {
+    let patch = mesh[element].patch;
+    let light = |vertex: &Vertex| mesh[patch].reflectance * vertex.indirect.unwrap_or(Rgb::ZERO);
+    groups.holds(patch) && oracle.is_even((mesh, element), light)
 }
 
 /// Divides the leaves among the candidates that interpolation does not do justice, and returns the

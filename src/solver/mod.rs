@@ -10,8 +10,11 @@ mod direct_pass;
 mod element_light;
 mod energy;
 mod gather;
+mod groups;
 mod indirect_pass;
+mod lookout;
 mod observer;
+mod parts;
 mod probe;
 mod progressive;
 pub mod relaxation;
@@ -44,6 +47,7 @@ pub use work_plane::{Evenness, WorkPlane};
 
 use direct_pass::World;
 use gather::Gatherer;
+use groups::Groups;
 use observer::Observer;
 use progressive::Shooting;
 use relaxation::Step;
@@ -175,7 +179,8 @@ pub fn solve_with(
     let mut mesh = Mesh::new(surfaces, settings);
     check_reflectances(surfaces, &mesh)?;
     let light = lamps_on(surfaces, settings, &mesh)?;
-    let world = World::new(surfaces, &light);
+    let groups = Groups::new(surfaces, settings, &mesh);
+    let world = World::new(surfaces, settings, (&light, &groups));
 
     direct_pass::refine(world, settings, &mut mesh, &mut observer);
     direct_pass::light_leaves(world, &mut mesh, &mut observer);
@@ -230,8 +235,8 @@ fn gather(
 ) -> (usize, u64) {
     let fine = GATHER_SHARE * settings.tolerance * mean_radiosity(mesh);
     let oracle = Oracle::of_reflected_light(settings, world.surfaces.extent, mesh);
-    let mut gatherer =
-        Gatherer::new((world.surfaces, world.occluders), exchange.sources(mesh), fine);
+    let scene = (world.surfaces, world.occluders, world.groups);
+    let mut gatherer = Gatherer::new(scene, settings, exchange.sources(mesh), fine);
     for round in 1..=ROUNDS {
         indirect_pass::refine((settings, &oracle), &mut gatherer, mesh, observer);
         direct_pass::light_leaves(world, mesh, observer);

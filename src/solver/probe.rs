@@ -6,6 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::gather::Gatherer;
+use super::groups::Groups;
 use super::sources::Sources;
 use super::{GATHER_SHARE, Solution};
 use crate::colour::{LUMENS_PER_WATT, Rgb, luminance};
@@ -62,7 +63,9 @@ pub fn read(
     let (mesh, occluders) = (&solution.mesh, Occluders::new(surfaces));
     let lamps = Lamps::new(surfaces, mesh).seen_by(settings.shadow_rays);
     let fine = GATHER_SHARE * settings.tolerance * mean_radiosity(mesh);
-    let gatherer = Gatherer::new((surfaces, &occluders), Sources::of_vertices(mesh), fine);
+    let groups = Groups::new(surfaces, settings, mesh);
+    let world = (surfaces, &occluders, &groups);
+    let gatherer = Gatherer::new(world, settings, Sources::of_vertices(mesh), fine);
     let targets = Targets::new(&mesh.patches);
     let mut readings: Vec<Reading> = Vec::new();
     while readings.len() < places.len() {

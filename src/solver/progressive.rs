@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use super::direct_pass::World;
 use super::energy::Energy;
+use super::groups::Groups;
 use super::relaxation::{Course, Relaxation, Residuals, Step};
 use super::transport::{Row, row};
 use super::{ElementLight, Observer, Phase, Stop};
@@ -48,7 +49,7 @@ struct State {
     hemicubes: usize,
     factors: u64,
     /// Whose rows are there.
-    ready: Vec<PatchId>,
+    ready: Vec<usize>,
 }
 
 /// A solution by shooting under way.
@@ -58,15 +59,21 @@ pub(super) struct Shooting<'a> {
     occluders: &'a Occluders,
     delta: DeltaFactors,
     targets: Targets,
+    /// By group.
     rows: Vec<Option<Row>>,
     kept: usize,
+    groups: &'a Groups,
+    /// By group: its area, m².
+    areas: Vec<f64>,
+    /// By group: its mean reflectance.
+    reflectances: Vec<Rgb>,
     /// By patch: its elements, parents before their children.
     trees: Vec<Vec<ElementId>>,
-    /// By patch: mean radiosity received and not yet shot, W/m².
+    /// By group: mean radiosity received and not yet shot, W/m².
     unshot: Vec<Rgb>,
     /// By element: the irradiance received at that level and not yet shot, W/m².
     pending: Vec<Rgb>,
-    /// What patches release, if that is not what they hold.
+    /// What groups release, if that is not what they hold.
     remembered: Option<Held>,
     /// By element: irradiance by reflected light received at that level, W/m².
     pub(super) received: Vec<Rgb>,
@@ -82,22 +89,40 @@ impl<'a> Shooting<'a> {
     /// Books the direct light: emitters have shot, patches hold what they reflect of it.
     pub(super) fn new(
         mesh: &'a Mesh,
-        World { surfaces, occluders, .. }: World<'a>,
+        World { surfaces, occluders, groups, .. }: World<'a>,
         settings: &Settings,
         light: &ElementLight,
     ) -> Self {
         let direct = |patch: &crate::mesh::Patch| light.direct[patch.root.index()];
+        let members = |group: usize| groups.members(group).iter().map(|&patch| &mesh[patch]);
+        let areas: Vec<f64> =
+            (0..groups.len()).map(|group| members(group).map(|patch| patch.area).sum()).collect();
+        let unshot = |group: usize| {
+            let mean = |patch: &crate::mesh::Patch| {
+                patch.reflectance * direct(patch) * share(patch.area, areas[group])
+            };
+            members(group).map(mean).sum()
+        };
+        let reflectance = |group: usize| {
+            let part =
+                |patch: &crate::mesh::Patch| patch.reflectance * share(patch.area, areas[group]);
+            members(group).map(part).sum()
+        };
+        let reflectances = (0..groups.len()).map(reflectance).collect();
         let mut shooting = Self {
             mesh,
             surfaces,
             occluders,
             delta: DeltaFactors::new(settings.hemicube_resolution as usize),
             targets: Targets::new(&mesh.patches),
-            rows: vec![None; mesh.patches.len()],
+            rows: vec![None; groups.len()],
+            groups,
             kept: 0,
             trees: mesh.trees(),
             pending: leaves_only(mesh, &light.direct),
-            unshot: mesh.patches.iter().map(|patch| patch.reflectance * direct(patch)).collect(),
+            unshot: (0..groups.len()).map(unshot).collect(),
+            areas,
+            reflectances,
             remembered: None,
             received: vec![Rgb::ZERO; mesh.elements.len()],
             energy: Energy::default(),
@@ -118,21 +143,23 @@ impl<'a> Shooting<'a> {
 
     /// What emitters send past all fronts; lights without a surface emit what arrives of them.
     fn book_emitters(&mut self, arrived: Rgb) {
-        let emitters = self.mesh.patches.iter().enumerate();
-        let emitters: Vec<PatchId> = emitters
-            .filter(|(_, patch)| patch.exitance.max_element() > 0.0)
-            .map(|(index, _)| PatchId(index as u32))
+        let (mesh, groups) = (self.mesh, self.groups);
+        let shines = |patch: &&PatchId| mesh[**patch].exitance.max_element() > 0.0;
+        let emitters: Vec<usize> = (0..groups.len())
+            .filter(|&group| groups.members(group).iter().any(|patch| shines(&patch)))
             .collect();
         self.make_rows(&emitters);
         for &emitter in &emitters {
-            let power = self.mesh[emitter].exitance * self.mesh[emitter].area;
-            let row = self.rows[emitter.index()].take().unwrap_or_default();
-            self.energy.emitted += power;
-            self.energy.escaped += power * row.escaped;
-            self.energy.on_backs += power * row.on_backs;
+            let row = self.rows[emitter].take().unwrap_or_default();
+            for &patch in groups.members(emitter).iter().filter(shines) {
+                let power = mesh[patch].exitance * mesh[patch].area;
+                self.energy.emitted += power;
+                self.energy.escaped += power * row.escaped;
+                self.energy.on_backs += power * row.on_backs;
+                self.shots += 1;
+            }
         }
         self.kept = 0;
-        self.shots = emitters.len();
         if !self.surfaces.lights.is_empty() {
             let elsewhere = self.energy.escaped + self.energy.on_backs;
             self.energy.emitted = self.energy.emitted.max(arrived + elsewhere);
@@ -172,6 +199,7 @@ impl<'a> Shooting<'a> {
             })
         });
         self.energy.unshot = self.unshot_power();
+        self.spread_over_groups();
         if stop == Stop::Diverged {
             return Err(diverged(settings));
         }
@@ -194,7 +222,7 @@ impl<'a> Shooting<'a> {
             shots: self.shots,
             hemicubes: self.hemicubes,
             factors: self.factors,
-            ready: rows.map(|(row, _)| PatchId(row as u32)).collect(),
+            ready: rows.map(|(row, _)| row).collect(),
         }
     }
 
@@ -210,11 +238,22 @@ impl<'a> Shooting<'a> {
         (state.course, state.stop)
     }
 
-    /// What a patch releases, W/m²; it holds that much less afterwards.
-    fn release(&mut self, patch: PatchId, omega: f64) -> Rgb {
+    /// Gives all patches of a group what they have received together.
+    fn spread_over_groups(&mut self) {
+        for group in 0..self.groups.len() {
+            let [first, others @ ..] = self.groups.members(group) else { continue };
+            let light = self.received[self.mesh[*first].root.index()];
+            for &other in others {
+                self.received[self.mesh[other].root.index()] = light;
+            }
+        }
+    }
+
+    /// What a group releases, W/m²; it holds that much less afterwards.
+    fn release(&mut self, group: usize, omega: f64) -> Rgb {
         let held = self.remembered.as_ref().map_or(&self.unshot, |remembered| &remembered.unshot);
-        let released = omega * held[patch.index()];
-        self.unshot[patch.index()] -= released;
+        let released = omega * held[group];
+        self.unshot[group] -= released;
         released
     }
 
@@ -247,33 +286,33 @@ impl<'a> Shooting<'a> {
         light
     }
 
-    /// Computes the rows that are missing of some patches.
-    fn make_rows(&mut self, patches: &[PatchId]) {
+    /// Computes the rows that are missing of some groups.
+    fn make_rows(&mut self, shooters: &[usize]) {
         if self.kept > KEPT_LINKS {
             self.rows.fill(None);
             self.kept = 0;
         }
-        let missing: Vec<PatchId> =
-            patches.iter().copied().filter(|patch| self.rows[patch.index()].is_none()).collect();
-        let (mesh, surfaces) = (self.mesh, self.surfaces);
+        let missing: Vec<usize> =
+            shooters.iter().copied().filter(|&shooter| self.rows[shooter].is_none()).collect();
+        let scene = (self.surfaces, self.mesh, self.groups);
         let (delta, targets, occluders) = (&self.delta, &self.targets, self.occluders);
         let rows: Vec<Row> = missing
             .par_iter()
             .map_init(
                 || Hemicube::new(delta, targets, occluders),
-                |hemicube, &patch| row(mesh, surfaces, hemicube, patch),
+                |hemicube, &shooter| row(scene, hemicube, shooter),
             )
             .collect();
         self.hemicubes += rows.len();
-        for (patch, row) in missing.into_iter().zip(rows) {
+        for (shooter, row) in missing.into_iter().zip(rows) {
             self.kept += row.links.len();
             self.factors += row.factors;
-            self.rows[patch.index()] = Some(row);
+            self.rows[shooter] = Some(row);
         }
     }
 
     fn unshot_power(&self) -> Rgb {
-        self.mesh.patches.iter().zip(&self.unshot).map(|(patch, &unshot)| unshot * patch.area).sum()
+        self.areas.iter().zip(&self.unshot).map(|(&area, &unshot)| unshot * area).sum()
     }
 
     /// Estimate of the irradiance that the unshot light will give rise to, the same everywhere, W/m².
@@ -294,7 +333,7 @@ impl Residuals for Shooting<'_> {
     }
 
     fn area(&self, row: usize) -> f64 {
-        self.mesh.patches[row].area
+        self.areas[row]
     }
 
     fn residual(&self, row: usize) -> Rgb {
@@ -315,30 +354,32 @@ impl Residuals for Shooting<'_> {
     }
 
     fn prepare(&mut self, rows: &[usize]) {
-        let patches: Vec<PatchId> = rows.iter().map(|&row| PatchId(row as u32)).collect();
-        self.make_rows(&patches);
+        self.make_rows(rows);
     }
 
-    fn relax(&mut self, row: usize, omega: f64) -> Rgb {
-        let shooter = PatchId(row as u32);
+    fn relax(&mut self, shooter: usize, omega: f64) -> Rgb {
         let released = self.release(shooter, omega);
-        let radiosity = self.release_elements(shooter, omega);
-        let power = released * self.mesh[shooter].area;
-        let row = self.rows[shooter.index()].take().unwrap_or_default();
+        let radiosity = match self.groups.members(shooter) {
+            &[patch] => Released::ByElement(self.release_elements(patch, omega)),
+            _ => Released::Even(released),
+        };
+        let power = released * self.areas[shooter];
+        let row = self.rows[shooter].take().unwrap_or_default();
         let scale = conserve(power * (1.0 - row.escaped - row.on_backs), &row, &radiosity);
         for link in &row.links {
-            let receiver = self.mesh[link.receiver].patch;
-            let patch = &self.mesh[receiver];
-            let power = scale * radiosity[&link.source] * link.exchange;
-            let irradiance = power / self.mesh[link.receiver].area;
-            self.received[link.receiver.index()] += irradiance;
-            self.pending[link.receiver.index()] += irradiance;
-            self.unshot[receiver.index()] += patch.reflectance * power / patch.area;
-            self.energy.absorbed += (Rgb::ONE - patch.reflectance) * power;
+            let power = scale * radiosity.of(link.source) * link.exchange;
+            let group = self.groups.of(self.mesh[link.receiver].patch);
+            let shared = self.groups.members(group).len() > 1;
+            let area = if shared { self.areas[group] } else { self.mesh[link.receiver].area };
+            // A group's light is kept with the first of its patches, and spread at last.
+            self.received[link.receiver.index()] += power / area;
+            self.pending[link.receiver.index()] += power / area;
+            self.unshot[group] += self.reflectances[group] * power / self.areas[group];
+            self.energy.absorbed += (Rgb::ONE - self.reflectances[group]) * power;
         }
         self.energy.escaped += power * row.escaped;
         self.energy.on_backs += power * row.on_backs;
-        self.rows[shooter.index()] = Some(row);
+        self.rows[shooter] = Some(row);
         self.shots += 1;
         released
     }
@@ -352,6 +393,28 @@ fn last_state(observer: &mut Observer<'_>) -> Option<State> {
         last = Some(state);
     }
     last
+}
+
+/// The radiosity that a shooter releases, W/m².
+enum Released {
+    /// By element of a patch.
+    ByElement(BTreeMap<ElementId, Rgb>),
+    /// The same everywhere: groups of facets are taken as one.
+    Even(Rgb),
+}
+
+impl Released {
+    fn of(&self, element: ElementId) -> Rgb {
+        match self {
+            Self::ByElement(elements) => elements[&element],
+            Self::Even(radiosity) => *radiosity,
+        }
+    }
+}
+
+/// A part's share of the whole; of nothing, all.
+fn share(part: f64, whole: f64) -> f64 {
+    if whole > 0.0 { part / whole } else { 1.0 }
 }
 
 /// Advice for a relaxation that will not end.
@@ -373,8 +436,8 @@ fn leaves_only(mesh: &Mesh, values: &[Rgb]) -> Vec<Rgb> {
 ///
 /// Elements of a shooter near others see more or less of them than the whole does; no light may be
 /// lost by that, or come from nowhere.
-fn conserve(power: Rgb, row: &Row, radiosity: &BTreeMap<ElementId, Rgb>) -> Rgb {
-    let carried: Rgb = row.links.iter().map(|link| radiosity[&link.source] * link.exchange).sum();
+fn conserve(power: Rgb, row: &Row, radiosity: &Released) -> Rgb {
+    let carried: Rgb = row.links.iter().map(|link| radiosity.of(link.source) * link.exchange).sum();
     let scale = Rgb::select(carried.cmpne(Rgb::ZERO), power / carried, Rgb::ONE);
     scale.clamp(Rgb::splat(0.8), Rgb::splat(1.25))
 }

@@ -8,6 +8,8 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
+use super::groups::Groups;
+use super::parts::{self, Facets};
 use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::{Hemicube, Sight, turn};
 use crate::mesh::{ElementId, Mesh, PatchId};
@@ -15,14 +17,14 @@ use crate::surface::Surfaces;
 use crate::surface::polygon::centroid;
 
 /// Elements nearer to each other than this many of their sizes exchange light by their parts.
-const NEAR: f64 = 2.0;
+pub(super) const NEAR: f64 = 2.0;
 
 /// What is nearer to an element's centre than this share of its size is too close for the centre to
 /// see for all of it.
-const CLOSE: f64 = 0.4;
+pub(super) const CLOSE: f64 = 0.4;
 
 /// An element looks by its parts if more than this share of its view is close.
-const CLOSE_SHARE: f64 = 0.05;
+pub(super) const CLOSE_SHARE: f64 = 0.05;
 
 /// Levels of a tree down to which elements look for themselves; below them it changed no result.
 const LOOK_LEVELS: u32 = 2;
@@ -48,13 +50,24 @@ pub(super) struct Link {
     pub(super) exchange: f64,
 }
 
+/// The row of a group of patches, most often a single one.
+pub(super) fn row(
+    (surfaces, mesh, groups): (&Surfaces, &Mesh, &Groups),
+    hemicube: &mut Hemicube<'_>,
+    shooter: usize,
+) -> Row {
+    match groups.members(shooter) {
+        &[patch] => row_of_patch((surfaces, mesh, groups), hemicube, patch),
+        members => parts::row((surfaces, mesh, groups), hemicube, members),
+    }
+}
+
 /// The row of one patch.
 ///
 /// Where something is so close that the patch's centre cannot see for all of it, its parts look for
 /// themselves.
-pub(super) fn row(
-    mesh: &Mesh,
-    surfaces: &Surfaces,
+fn row_of_patch(
+    (surfaces, mesh, groups): (&Surfaces, &Mesh, &Groups),
     hemicube: &mut Hemicube<'_>,
     shooter: PatchId,
 ) -> Row {
@@ -73,12 +86,27 @@ pub(super) fn row(
         }
         let share = mesh[source].area / patch.area;
         row.escaped += hemicube.escaping() * share;
-        for sight in hemicube.sights() {
+        for sight in hemicube.sights_of(|patch| !groups.holds(patch)) {
             if sight.front {
-                Linking { mesh, surfaces, hemicube, sight }.link(source, &mut row);
+                let Sight { patch, visible, .. } = sight;
+                Linking { mesh, surfaces, hemicube, patch, visible }.link(source, &mut row);
             } else {
                 row.on_backs += sight.delta * share;
             }
+        }
+        let facets = Facets::seen(groups, hemicube);
+        row.on_backs += facets.on_backs * share;
+        for (group, cover) in facets.fronts {
+            let receiver = groups.receiver(mesh, group);
+            let gap = groups.centre(group).distance(place.centre);
+            // Rays do not tell what a patch covers but its form factor; near ones, projection does.
+            let exchange =
+                if gap < NEAR * (place.size + groups.size(group)) && !hemicube.is_by_rays() {
+                    parts::exchange_nearby(mesh, &place.corners, (groups.members(group), cover))
+                } else {
+                    cover.kept * mesh[source].area
+                };
+            row.links.push(Link { source, receiver, exchange });
         }
     }
     row
@@ -89,7 +117,9 @@ struct Linking<'a, 'b> {
     mesh: &'a Mesh,
     surfaces: &'a Surfaces,
     hemicube: &'a Hemicube<'b>,
-    sight: Sight,
+    patch: PatchId,
+    /// Share of the patch that nothing hides.
+    visible: f64,
 }
 
 /// An element in space.
@@ -105,7 +135,7 @@ impl Linking<'_, '_> {
     /// Links the elements of the patch in sight with those under `source`, fine enough for their distance.
     fn link(&self, source: ElementId, row: &mut Row) {
         let mut open: SmallVec<[(ElementId, ElementId); 32]> = SmallVec::new();
-        open.push((source, self.mesh[self.sight.patch].root));
+        open.push((source, self.mesh[self.patch].root));
         while let Some((source, receiver)) = open.pop() {
             let (from, to) = (self.place(source), self.place(receiver));
             let near = from.centre.distance(to.centre) < NEAR * (from.size + to.size);
@@ -137,10 +167,10 @@ impl Linking<'_, '_> {
         if factor == 0.0 {
             return 0.0;
         }
-        let visible = match self.sight.visible {
+        let visible = match self.visible {
             1.0 => 1.0,
-            visible if self.mesh[self.sight.patch].root == receiver.element => visible,
-            _ => self.hemicube.visible_share(self.sight.patch, &receiver.corners),
+            visible if self.mesh[self.patch].root == receiver.element => visible,
+            _ => self.hemicube.visible_share(self.patch, &receiver.corners),
         };
         factor * visible * self.mesh[small.element].area
     }

@@ -49,9 +49,20 @@ impl Occluders {
         near.into_iter().filter(stands)
     }
 
-    /// The corners of an occluder, by its number.
-    pub fn corners(&self, number: u32) -> &[DVec3] {
-        &self.polygons[number as usize].corners
+    /// An occluder by its number, below [`Self::len`].
+    pub fn facet(&self, number: u32) -> Facet<'_> {
+        let Occluder { corners, plane, .. } = &self.polygons[number as usize];
+        Facet { corners, plane: *plane }
+    }
+
+    /// Number of occluders.
+    pub fn len(&self) -> usize {
+        self.polygons.len()
+    }
+
+    /// True if nothing hides anything.
+    pub fn is_empty(&self) -> bool {
+        self.polygons.is_empty()
     }
 
     /// True if nothing stands between two polygons that face each other.

@@ -10,7 +10,7 @@ use super::{Occluder, Occluders};
 /// The visible pieces of a polygon; they do not overlap.
 pub type Pieces = SmallVec<[Polygon; 2]>;
 
-/// Beyond this many pieces a shaft is crowded, and cutting on costs more than sampling.
+/// Beyond this many pieces, or shadows, a shaft is crowded, and cutting on costs more than sampling.
 const CROWDED: usize = 96;
 
 /// Shadows are sorted by size in lots of this many.
@@ -74,7 +74,7 @@ impl Occluders {
         self.visible_pieces(eye, source, normal, CROWDED)
     }
 
-    /// As [`Self::visible_part`], giving up at more than `most` pieces.
+    /// As [`Self::visible_part`], giving up at more than `most` pieces or shadows.
     pub fn visible_pieces(
         &self,
         eye: DVec3,
@@ -130,22 +130,30 @@ struct Shade {
     seen: Seen,
     /// Still to be taken out.
     shadows: Vec<Shadow>,
-    /// More pieces than this are too many.
+    /// Shadows so far.
+    count: usize,
+    /// More pieces or shadows than this are too many.
     most: usize,
 }
 
 impl Shade {
     fn new(seen: Seen, most: usize) -> Self {
-        Self { seen, shadows: Vec::new(), most }
+        Self { seen, shadows: Vec::new(), count: 0, most }
     }
 
     /// Adds the shadow of an occluder; false if going on is of no use.
     fn by(&mut self, occluder: &Occluder) -> bool {
-        self.shadows.extend(self.seen.shadow(occluder));
+        let shadow = self.seen.shadow(occluder);
+        self.count += usize::from(shadow.is_some());
+        self.shadows.extend(shadow);
         if self.shadows.len() >= BATCH || self.shadows.last().is_some_and(Shadow::covers_all) {
             self.subtract();
         }
-        !self.seen.is_empty() && self.seen.len() <= self.most
+        !self.seen.is_empty() && !self.is_crowded()
+    }
+
+    fn is_crowded(&self) -> bool {
+        self.seen.len() > self.most || self.count > self.most
     }
 
     /// Takes the shadows out of what is seen, the largest first: it leaves the others little to cut.
@@ -164,7 +172,9 @@ impl Shade {
 
     /// What is left, unless it is too many pieces.
     fn pieces(mut self) -> Option<Pieces> {
-        self.subtract();
-        (self.seen.len() <= self.most).then(|| self.seen.pieces())
+        if !self.is_crowded() {
+            self.subtract();
+        }
+        (self.seen.is_empty() || !self.is_crowded()).then(|| self.seen.pieces())
     }
 }

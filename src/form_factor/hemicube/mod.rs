@@ -88,6 +88,19 @@ pub struct Sight {
     pub front: bool,
 }
 
+/// The cells of a patch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cover {
+    /// The patch.
+    pub patch: PatchId,
+    /// Sum of the delta factors of the cells that it covers; of a look by rays, its form factor.
+    pub covered: f64,
+    /// Sum of those of the cells that it kept.
+    pub kept: f64,
+    /// True if its front is seen.
+    pub front: bool,
+}
+
 impl<'a> Hemicube<'a> {
     /// A hemicube with cells as `delta` has them; what falls between their centres is looked for by a ray.
     pub fn new(delta: &'a DeltaFactors, targets: &'a Targets, occluders: &'a Occluders) -> Self {
@@ -142,7 +155,28 @@ impl<'a> Hemicube<'a> {
 
     /// The patches seen, in their order.
     pub fn sights(&self) -> impl Iterator<Item = Sight> + '_ {
-        self.drawn.iter().filter_map(|&index| self.sight(index))
+        self.sights_of(|_| true)
+    }
+
+    /// Those of the patches seen that are `wanted`, in their order.
+    pub fn sights_of(&self, wanted: impl Fn(PatchId) -> bool) -> impl Iterator<Item = Sight> {
+        let wanted = self.drawn.iter().filter(move |&&index| wanted(PatchId(index)));
+        wanted.filter_map(|&index| self.sight(index))
+    }
+
+    /// What is known of a patch by cells alone: none are looked for that cover no cell's centre.
+    pub fn prints_of(&self, wanted: impl Fn(PatchId) -> bool) -> impl Iterator<Item = Cover> {
+        let wanted = self.drawn.iter().filter(move |&&index| wanted(PatchId(index)));
+        wanted.map(|&index| {
+            let Print { covered, kept, .. } = self.prints[index as usize];
+            let front = self.targets.height(index as usize, self.eye) > 0.0;
+            Cover { patch: PatchId(index), covered: covered.into(), kept: kept.into(), front }
+        })
+    }
+
+    /// True if this look was by rays: patches that they did not meet are unknown.
+    pub fn is_by_rays(&self) -> bool {
+        self.rays.is_some()
     }
 
     /// The patch that each cell sees: the top face's rows, then those of the four half faces.

@@ -1,0 +1,152 @@
+//! Groups of facets as shooters, and as what a hemicube sees.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
+use super::groups::{Groups, Part, centre};
+use super::transport::{CLOSE, CLOSE_SHARE, Link, NEAR, Row};
+use crate::form_factor::contour::point_to_polygon;
+use crate::form_factor::hemicube::{Cover, Hemicube, Sight, turn};
+use crate::mesh::{ElementId, Mesh, Patch, PatchId};
+use crate::surface::Surfaces;
+
+/// How often a group is halved at most where something is close: sixteen parts look for themselves.
+const HALVINGS: u32 = 4;
+
+/// The row of a group: what its speaker sends, for all of its area.
+///
+/// Where something is so close that the speaker cannot see for all, halves have speakers of their own.
+pub(super) fn row(
+    (surfaces, mesh, groups): (&Surfaces, &Mesh, &Groups),
+    hemicube: &mut Hemicube<'_>,
+    members: &[PatchId],
+) -> Row {
+    let whole = Part::new(mesh, members.to_vec());
+    let all = whole.area;
+    let mut row = Row::default();
+    let mut open = vec![(whole, 0)];
+    while let Some((part, depth)) = open.pop() {
+        let speaker = &mesh[part.speaker];
+        let plane = &surfaces.list[speaker.surface as usize].plane;
+        let eye = (mesh.centre(speaker.root, plane), speaker.normal);
+        let hemicube = hemicube.look(eye, turn(speaker.root.index() as f64));
+        let divisible = depth < HALVINGS && part.members.len() > 1;
+        if divisible && hemicube.share_within(CLOSE * part.size) > CLOSE_SHARE {
+            open.extend(part.halves(mesh).map(|half| (half, depth + 1)));
+            continue;
+        }
+        Shot { surfaces, mesh, groups, hemicube, eye, part: &part, share: part.area / all }
+            .deliver(&mut row);
+    }
+    row
+}
+
+/// What one speaker sends.
+struct Shot<'a, 'b> {
+    surfaces: &'a Surfaces,
+    mesh: &'a Mesh,
+    groups: &'a Groups,
+    hemicube: &'a Hemicube<'b>,
+    eye: (DVec3, DVec3),
+    part: &'a Part,
+    /// Share of the group's area that it speaks for.
+    share: f64,
+}
+
+impl Shot<'_, '_> {
+    fn deliver(&self, row: &mut Row) {
+        let Self { mesh, groups, hemicube, share, .. } = *self;
+        row.escaped += hemicube.escaping() * share;
+        for sight in hemicube.sights_of(|patch| !groups.holds(patch)) {
+            if sight.front {
+                self.link(sight, row);
+            } else {
+                row.on_backs += sight.delta * share;
+            }
+        }
+        let facets = Facets::seen(groups, hemicube);
+        row.on_backs += facets.on_backs * share;
+        for (group, cover) in facets.fronts {
+            self.add(groups.receiver(mesh, group), cover.kept, row);
+        }
+    }
+
+    /// Links the speaker with the elements of a patch, fine enough for their distance.
+    fn link(&self, Sight { patch, visible, .. }: Sight, row: &mut Row) {
+        let mesh = self.mesh;
+        let plane = &self.surfaces.list[mesh[patch].surface as usize].plane;
+        let root = mesh[patch].root;
+        let mut open: SmallVec<[ElementId; 32]> = SmallVec::new();
+        open.push(root);
+        while let Some(receiver) = open.pop() {
+            let corners: SmallVec<[DVec3; 8]> =
+                mesh.outline(receiver).iter().map(|&p| plane.lift(p)).collect();
+            let centre = corners.iter().sum::<DVec3>() / corners.len() as f64;
+            let sizes = self.part.size + mesh[receiver].area.sqrt();
+            let parts = &mesh[receiver].children;
+            if !parts.is_empty() && centre.distance(self.eye.0) < NEAR * sizes {
+                open.extend_from_slice(parts);
+                continue;
+            }
+            let visible = match visible {
+                1.0 => 1.0,
+                visible if receiver == root => visible,
+                _ => self.hemicube.visible_share(patch, &corners),
+            };
+            let factor = point_to_polygon(self.eye.0, self.eye.1, &corners);
+            row.factors += 1;
+            self.add(receiver, factor * visible, row);
+        }
+    }
+
+    fn add(&self, receiver: ElementId, factor: f64, row: &mut Row) {
+        if factor > 0.0 && self.mesh[receiver].area > 0.0 {
+            let source = self.mesh[self.part.speaker].root;
+            row.links.push(Link { source, receiver, exchange: factor * self.part.area });
+        }
+    }
+}
+
+/// The facets that a hemicube sees, by group: each may be smaller than its cells.
+#[derive(Debug, Default)]
+pub(super) struct Facets {
+    /// By group, what is seen of its fronts.
+    pub(super) fronts: BTreeMap<usize, Cover>,
+    /// Share of the view that their backs fill.
+    pub(super) on_backs: f64,
+}
+
+impl Facets {
+    pub(super) fn seen(groups: &Groups, hemicube: &Hemicube<'_>) -> Self {
+        let mut facets = Self::default();
+        for cover in hemicube.prints_of(|patch| groups.holds(patch)) {
+            if cover.front {
+                let none = Cover { covered: 0.0, kept: 0.0, ..cover };
+                let sum = facets.fronts.entry(groups.of(cover.patch)).or_insert(none);
+                sum.covered += cover.covered;
+                sum.kept += cover.kept;
+            } else {
+                facets.on_backs += cover.kept;
+            }
+        }
+        facets.fronts.retain(|_, cover| cover.kept > 0.0);
+        facets
+    }
+}
+
+/// Form factor times area, m², from a polygon to a group near it, of which a hemicube over the polygon has seen
+/// this; by reciprocity the sum of those from the facets.
+pub(super) fn exchange_nearby(
+    mesh: &Mesh,
+    polygon: &[DVec3],
+    (members, cover): (&[PatchId], Cover),
+) -> f64 {
+    let factor = |facet: &Patch| {
+        let centre = centre(facet);
+        point_to_polygon(centre, facet.normal, polygon) * facet.area
+    };
+    let visible = if cover.covered > 0.0 { (cover.kept / cover.covered).min(1.0) } else { 0.0 };
+    visible * members.iter().map(|&member| factor(&mesh[member])).sum::<f64>()
+}
