@@ -53,23 +53,23 @@ pub fn solve_by_light(
     let mut mesh = Mesh::new(&scenes[0].0, settings);
     for alone in &mut alone {
         alone.take_over(&mut mesh);
-        direct_pass::refine(alone.world(settings), settings, &mut mesh, &mut observer);
+        direct_pass::refine(alone.world(), settings, &mut mesh, &mut observer);
         alone.leave(&mesh);
     }
     let mut exchanges = Vec::new();
     for alone in &mut alone {
         alone.take_over(&mut mesh);
-        direct_pass::light_leaves(alone.world(settings), &mut mesh, &mut observer);
-        let mut exchange = Exchange::new(alone.world(settings), settings, &mesh, &mut observer)?;
+        direct_pass::light_leaves(alone.world(), &mut mesh, &mut observer);
+        let mut exchange = Exchange::new(alone.world(), settings, &mesh, &mut observer)?;
         let (gathered, work) =
-            reflect(alone.world(settings), settings, (&mut mesh, &mut exchange), &mut observer);
+            reflect(alone.world(), settings, (&mut mesh, &mut exchange), &mut observer);
         exchanges.push((exchange, gathered, work));
         alone.leave(&mesh);
     }
     let finish = |(alone, (exchange, gathered, work)): (&Alone<'_>, (Exchange, usize, Work))| {
         let mut mesh = mesh.clone();
         alone.take_over(&mut mesh);
-        direct_pass::light_leaves(alone.world(settings), &mut mesh, &mut observer);
+        direct_pass::light_leaves(alone.world(), &mut mesh, &mut observer);
         // It has done without the elements that other lights asked for later.
         indirect_pass::interpolate(&mut mesh);
         exchange.solution(mesh, gathered, work)
@@ -90,8 +90,8 @@ impl<'a> Alone<'a> {
         Ok(Self { surfaces, light, groups, exitance, known: Vec::new() })
     }
 
-    fn world(&self, settings: &Settings) -> World<'_> {
-        World::new(self.surfaces, settings, (&self.light, &self.groups))
+    fn world(&self) -> World<'_> {
+        World::new(self.surfaces, &self.light, &self.groups)
     }
 
     /// Lights a mesh with what is known of this light, and puts out all other.

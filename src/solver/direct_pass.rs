@@ -29,25 +29,20 @@ pub(super) struct World<'a> {
     pub(super) light: &'a PatchLight,
     /// What shoots as one.
     pub(super) groups: &'a Groups,
-    /// Vertices of facets nearer to each other than this, m, are looked at as one: half the shortest side.
+    /// Vertices of facets nearer to each other than this, m, are at one place.
     near: f64,
 }
 
 impl<'a> World<'a> {
-    pub(super) fn new(
-        surfaces: &'a Surfaces,
-        settings: &Settings,
-        (light, groups): (&'a PatchLight, &'a Groups),
-    ) -> Self {
-        let shortest = settings.min_element.metres(surfaces.extent);
-        let near = 0.5 * shortest.max(ONE_PLACE * surfaces.tolerance);
+    pub(super) fn new(surfaces: &'a Surfaces, light: &'a PatchLight, groups: &'a Groups) -> Self {
+        let near = ONE_PLACE * surfaces.tolerance;
         Self { surfaces, occluders: light.occluders(), light, groups, near }
     }
 }
 
 /// Evaluates direct light at all vertices that lack it.
 ///
-/// Vertices of facets that are in one group and near each other see the same share of it.
+/// Vertices of facets that are in one group and at one place see the same share of it.
 pub(super) fn light(world: World<'_>, mesh: &mut Mesh, observer: &mut Observer<'_>) {
     let dark: Vec<VertexId> = (0..mesh.vertices.len() as u32)
         .map(VertexId)

@@ -180,7 +180,7 @@ pub fn solve_with(
     check_reflectances(surfaces, &mesh)?;
     let light = lamps_on(surfaces, settings, &mesh)?;
     let groups = Groups::new(surfaces, settings, &mesh);
-    let world = World::new(surfaces, settings, (&light, &groups));
+    let world = World::new(surfaces, &light, &groups);
 
     direct_pass::refine(world, settings, &mut mesh, &mut observer);
     direct_pass::light_leaves(world, &mut mesh, &mut observer);
