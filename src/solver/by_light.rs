@@ -8,9 +8,10 @@ use std::ops::ControlFlow;
 
 use super::direct_pass::{self, World};
 use super::groups::Groups;
+use super::interpolate::{REFLECTED, interpolate};
 use super::{
     Checkpoint, ElementLight, Energy, Exchange, Observer, Progress, Solution, Stop, Work,
-    check_reflectances, indirect_pass, lamps_on, reflect,
+    check_reflectances, lamps_on, reflect,
 };
 use crate::colour::Rgb;
 use crate::direct::PatchLight;
@@ -46,8 +47,7 @@ pub fn solve_by_light(
 ) -> Result<(Solution, Vec<Solution>)> {
     settings.validate()?;
     let settings = &checkpoint.settings(settings);
-    let flow = ControlFlow::Continue(());
-    let mut observer = Observer { observe: &mut observe, flow, checkpoint };
+    let mut observer = Observer::new(&mut observe, checkpoint);
     let mut alone: Vec<Alone<'_>> =
         scenes.iter().map(|(surfaces, _)| Alone::new(surfaces, settings)).collect::<Result<_>>()?;
     let mut mesh = Mesh::new(&scenes[0].0, settings);
@@ -71,7 +71,7 @@ pub fn solve_by_light(
         alone.take_over(&mut mesh);
         direct_pass::light_leaves(alone.world(), &mut mesh, &mut observer);
         // It has done without the elements that other lights asked for later.
-        indirect_pass::interpolate(&mut mesh);
+        interpolate(&mut mesh, REFLECTED);
         exchange.solution(mesh, gathered, work)
     };
     let solutions: Vec<Solution> = alone.iter().zip(exchanges).map(finish).collect();

@@ -7,6 +7,7 @@ use serde::de::DeserializeOwned;
 use smallvec::SmallVec;
 
 use super::groups::Groups;
+use super::interpolate::{DIRECT, interpolate};
 use super::lookout::{ONE_PLACE, neighbours};
 use super::{Observer, Phase};
 use crate::colour::Rgb;
@@ -103,6 +104,25 @@ pub(super) fn light_leaves(world: World<'_>, mesh: &mut Mesh, observer: &mut Obs
         mesh.middle(leaf);
     }
     light(world, mesh, observer);
+    if observer.flow.is_break() {
+        make_do(world, mesh);
+    }
+}
+
+/// Gives vertices that were not evaluated in time what others say, or what would arrive if nothing stood between.
+fn make_do(World { light, .. }: World<'_>, mesh: &mut Mesh) {
+    let open = |vertex: &Vertex| {
+        let unoccluded = light.unoccluded(vertex.patch, vertex.site);
+        Direct { irradiance: unoccluded, unoccluded }
+    };
+    for patch in 0..mesh.patches.len() {
+        let root = mesh.patches[patch].root;
+        for corner in mesh[root].corners.clone() {
+            let vertex = &mut mesh.vertices[corner.index()];
+            vertex.direct = Some(vertex.direct.unwrap_or_else(|| open(vertex)));
+        }
+    }
+    interpolate(mesh, DIRECT);
 }
 
 /// True for small facets that are lit evenly, as their neighbours will be: no shadow edge is looked for that
@@ -125,7 +145,7 @@ pub(super) fn refine(
         return;
     }
     light(world, mesh, observer);
-    if settings.uniform.is_some() {
+    if settings.uniform.is_some() || observer.flow.is_break() {
         return;
     }
     let oracle = Oracle::of_direct_light(settings, world.surfaces.extent, mesh);

@@ -8,7 +8,6 @@ use crate::colour::Rgb;
 use crate::mesh::{ElementId, Mesh, Middle, Split, Vertex, VertexId};
 use crate::refine::Oracle;
 use crate::settings::Settings;
-use crate::surface::polygon::distance;
 
 /// Gathers indirect light at the patches' corners, then, level by level, where interpolation fails,
 /// dividing elements that direct light had left whole. A uniform mesh is gathered everywhere, and
@@ -87,45 +86,4 @@ fn divide(
 /// Corners of elements, without those of black surfaces.
 fn corners(mesh: &Mesh, elements: &[ElementId]) -> Vec<VertexId> {
     elements.iter().flat_map(|&e| mesh[e].corners.iter().copied()).collect()
-}
-
-/// Gives vertices that were not gathered what their parents' corners say, from the patches downwards.
-pub(super) fn interpolate(mesh: &mut Mesh) {
-    for index in 0..mesh.elements.len() {
-        let element = ElementId(index as u32);
-        let Some(middle) = mesh.find_middle(element) else { continue };
-        let corners = mesh[element].corners.clone();
-        let at = |mesh: &Mesh, v: VertexId| mesh[v].indirect.unwrap_or(Rgb::ZERO);
-        for (k, &vertex) in middle.edges.iter().enumerate() {
-            let mean = (at(mesh, corners[k]) + at(mesh, corners[(k + 1) % corners.len()])) * 0.5;
-            mesh.vertices[vertex.index()].indirect.get_or_insert(mean);
-        }
-        let mean = corners.iter().map(|&v| at(mesh, v)).sum::<Rgb>() / corners.len() as f64;
-        mesh.vertices[middle.centre.index()].indirect.get_or_insert(mean);
-        for vertex in ends_of_cut(mesh, element) {
-            let light = along_edges(mesh, &corners, &middle.edges, vertex);
-            mesh.vertices[vertex.index()].indirect.get_or_insert(light);
-        }
-    }
-}
-
-/// Corners of an element's parts that lack light.
-fn ends_of_cut(mesh: &Mesh, element: ElementId) -> Vec<VertexId> {
-    let parts = mesh[element].children.iter();
-    let corners = parts.flat_map(|&part| mesh[part].corners.iter().copied());
-    corners.filter(|&v| mesh[v].indirect.is_none()).collect()
-}
-
-/// Light at a vertex on the border of an element, from the corners and midpoints of the nearest edge.
-fn along_edges(mesh: &Mesh, corners: &[VertexId], middles: &[VertexId], vertex: VertexId) -> Rgb {
-    let at = |v: VertexId| (mesh[v].position, mesh[v].indirect.unwrap_or(Rgb::ZERO));
-    let place = mesh[vertex].position;
-    let n = corners.len();
-    let halves =
-        (0..n).flat_map(|k| [[corners[k], middles[k]], [middles[k], corners[(k + 1) % n]]]);
-    let gap = |half: &[VertexId; 2]| distance(half.map(|v| at(v).0), place);
-    let nearest = halves.min_by(|a, b| gap(a).total_cmp(&gap(b)));
-    let [(a, from), (b, to)] = nearest.unwrap_or([corners[0]; 2]).map(at);
-    // Ends that were welded are at no distance.
-    from.lerp(to, (a.distance(place) / a.distance(b).max(f64::MIN_POSITIVE)).min(1.0))
 }

@@ -12,6 +12,7 @@ mod energy;
 mod gather;
 mod groups;
 mod indirect_pass;
+mod interpolate;
 mod lookout;
 mod observer;
 mod parts;
@@ -48,6 +49,7 @@ pub use work_plane::{Evenness, WorkPlane};
 use direct_pass::World;
 use gather::Gatherer;
 use groups::Groups;
+use interpolate::{REFLECTED, interpolate};
 use observer::Observer;
 use progressive::Shooting;
 use relaxation::Step;
@@ -174,8 +176,7 @@ pub fn solve_with(
     let Plan { stages, checkpoint } = plan;
     let checkpoint = checkpoint.unwrap_or(&mut nowhere);
     let settings = &checkpoint.settings(settings);
-    let flow = ControlFlow::Continue(());
-    let mut observer = Observer { observe: &mut observe, flow, checkpoint };
+    let mut observer = Observer::new(&mut observe, checkpoint);
     let mut mesh = Mesh::new(surfaces, settings);
     check_reflectances(surfaces, &mesh)?;
     let light = lamps_on(surfaces, settings, &mesh)?;
@@ -241,14 +242,15 @@ fn gather(
         indirect_pass::refine((settings, &oracle), &mut gatherer, mesh, observer);
         direct_pass::light_leaves(world, mesh, observer);
         if round < ROUNDS && observer.flow.is_continue() {
-            indirect_pass::interpolate(mesh);
+            interpolate(mesh, REFLECTED);
             gatherer.replace_sources(mesh, Sources::of_vertices(mesh));
         }
     }
     if observer.flow.is_break() {
         exchange.stop = Stop::Cancelled;
+        exchange.give_corners(mesh);
     }
-    indirect_pass::interpolate(mesh);
+    interpolate(mesh, REFLECTED);
     (gatherer.gathered, gatherer.factors)
 }
 
@@ -299,6 +301,17 @@ impl Exchange {
             *sum += vertex.direct.unwrap_or_default().irradiance;
         }
         Sources::new(mesh, &self.light, irradiance)
+    }
+
+    /// Gives corners of patches that lack reflected light what the patch has of it.
+    fn give_corners(&self, mesh: &mut Mesh) {
+        for patch in 0..mesh.patches.len() {
+            let root = mesh.patches[patch].root;
+            for corner in mesh[root].corners.clone() {
+                let light = self.light.indirect[root.index()];
+                mesh.vertices[corner.index()].indirect.get_or_insert(light);
+            }
+        }
     }
 
     /// Gives all vertices the mean of the elements around them, and the ambient light.

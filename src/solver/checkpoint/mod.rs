@@ -11,7 +11,6 @@ mod tape;
 
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
-use std::slice::Chunks;
 use std::time::{Duration, Instant};
 
 use serde::de::DeserializeOwned;
@@ -22,9 +21,6 @@ use crate::file;
 use crate::settings::Settings;
 
 use tape::Tape;
-
-/// Items evaluated between two records: fewer would keep threads waiting for each other.
-const BATCH: usize = 2048;
 
 /// A state is written down when the work since the last one is this share of all work so far, so that the file
 /// grows slower the longer it gets.
@@ -112,11 +108,6 @@ impl Checkpoint {
             settings.max_elements = keeping.max_elements;
         }
         settings
-    }
-
-    /// The parts of a list of items to evaluate one after another.
-    pub(super) fn batches<'i, T>(&self, items: &'i [T]) -> Chunks<'i, T> {
-        items.chunks(if self.keeping.is_some() { BATCH } else { items.len().max(1) })
     }
 
     /// What `work` comes to: from the file, or worked out and kept there.
