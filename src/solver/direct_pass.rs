@@ -149,22 +149,24 @@ pub(super) fn refine(
         return;
     }
     let oracle = Oracle::of_direct_light(settings, world.surfaces.extent, mesh);
+    let may_be_divided = |mesh: &Mesh, element: ElementId| {
+        oracle.may_divide(mesh, element)
+            && reflects(mesh, element)
+            && !is_even_facet((world.groups, mesh), &oracle, element)
+    };
+    let mut candidates: Vec<ElementId> =
+        mesh.leaves().filter(|&e| may_be_divided(mesh, e)).collect();
     let lines = if settings.discontinuity_lines && settings.max_level > 0 {
-        discontinuities(world, mesh)
+        discontinuities(world, mesh, &candidates)
     } else {
         vec![Vec::new(); mesh.patches.len()]
     };
-    let mut candidates: Vec<ElementId> = mesh.leaves().collect();
     for level in 0..settings.max_level {
         let share = f64::from(level) / f64::from(settings.max_level);
         if observer.tell(Phase::Direct, share).is_break() {
             return;
         }
-        candidates.retain(|&e| {
-            oracle.may_divide(mesh, e)
-                && reflects(mesh, e)
-                && !is_even_facet((world.groups, mesh), &oracle, e)
-        });
+        candidates.retain(|&e| may_be_divided(mesh, e));
         let middles: Vec<Middle> = candidates.iter().map(|&e| mesh.middle(e)).collect();
         light(world, mesh, observer);
         let judged: Vec<(ElementId, &Middle)> = candidates.iter().copied().zip(&middles).collect();
@@ -187,11 +189,22 @@ pub(super) fn refine(
     }
 }
 
-/// Discontinuity lines, patch by patch.
-fn discontinuities(world: World<'_>, mesh: &Mesh) -> Vec<Vec<Discontinuity>> {
-    let lines =
-        |patch: u32| refine::discontinuities((world.surfaces, mesh), PatchId(patch), world.light);
-    (0..mesh.patches.len() as u32).into_par_iter().map(lines).collect()
+/// Discontinuity lines by patch, of those patches whose elements may be divided.
+fn discontinuities(
+    world: World<'_>,
+    mesh: &Mesh,
+    candidates: &[ElementId],
+) -> Vec<Vec<Discontinuity>> {
+    let mut is_wanted = vec![false; mesh.patches.len()];
+    for &element in candidates {
+        is_wanted[mesh[element].patch.index()] = true;
+    }
+    let lines = |(patch, is_wanted): (usize, bool)| {
+        let patch = PatchId(patch as u32);
+        is_wanted.then(|| refine::discontinuities((world.surfaces, mesh), patch, world.light))
+    };
+    let lines = is_wanted.into_par_iter().enumerate().map(lines);
+    lines.map(Option::unwrap_or_default).collect()
 }
 
 /// Black surfaces show no light, so nothing is gained by dividing them.
