@@ -11,6 +11,9 @@ use super::options::memory;
 const PER_PATCH: f64 = 15.0;
 const PLAIN: f64 = 0.02;
 
+/// Surfaces of this share of a patch's size, as of curved things, are seldom divided.
+const FACET: f64 = 0.5;
+
 /// How their number grows as the tolerance shrinks.
 const GROWTH: f64 = 0.6;
 
@@ -30,9 +33,12 @@ impl Estimate {
         if settings.uniform.is_some() {
             return Self { patches, elements: mesh.leaves().count(), exact: true };
         }
+        let small = FACET * settings.patch_length(surfaces.extent);
+        let facets: Vec<bool> = surfaces.list.iter().map(|s| s.extent() <= small).collect();
+        let whole = mesh.patches.iter().filter(|patch| facets[patch.surface as usize]).count();
         let finer = (PLAIN / settings.tolerance).powf(GROWTH);
-        let elements = (patches as f64 * (PER_PATCH * finer).max(1.0)) as usize;
-        Self { patches, elements, exact: false }
+        let divided = ((patches - whole) as f64 * (PER_PATCH * finer).max(1.0)) as usize;
+        Self { patches, elements: whole + divided, exact: false }
     }
 }
 

@@ -86,7 +86,9 @@ impl Lamps {
     pub fn new(surfaces: &Surfaces, mesh: &Mesh) -> Self {
         let mut areas = Vec::new();
         for (number, surface) in surfaces.list.iter().enumerate().filter(|(_, s)| s.is_emitter()) {
-            let front = HalfSpace::new(surface.plane.origin, surface.plane.normal);
+            // A hair before the surface, so that rounding lets no place on it be lit by what it lies on.
+            let normal = surface.plane.normal;
+            let front = HalfSpace::new(surface.plane.origin + normal * surfaces.tolerance, normal);
             let textured = surfaces.materials[surface.material as usize].emission_texture.is_some();
             if textured {
                 let patches = mesh.patches.iter().filter(|p| p.surface == number as u32);

@@ -1,6 +1,8 @@
 //! Scenes built in code, shared by tests and benchmarks.
 #![allow(dead_code, unreachable_pub, reason = "nobody uses all of it")]
 
+use std::f64::consts::{PI, TAU};
+
 use glam::{DVec2, DVec3};
 use radiosity::Scene;
 use radiosity::colour::Rgb;
@@ -73,6 +75,26 @@ impl Stage {
         let corners = block.corners();
         for side in SIDES {
             self.polygon(material, &side.map(|corner| corners[corner]));
+        }
+    }
+
+    /// Adds a ball of flat facets, 12 rows of 24.
+    pub fn ball(&mut self, material: u32, centre: DVec3, radius: f64) {
+        let at = |row: usize, column: usize| {
+            let (down, around) = (PI * row as f64 / 12.0, TAU * (column % 24) as f64 / 24.0);
+            let level = DVec3::new(around.cos(), 0.0, around.sin()) * down.sin();
+            // Places at the poles are the same to the last bit.
+            let level = if row.is_multiple_of(12) { DVec3::ZERO } else { level };
+            centre + (level + DVec3::Y * down.cos()) * radius
+        };
+        for (row, column) in (0..12).flat_map(|row| (0..24).map(move |column| (row, column))) {
+            let [a, b] = [at(row, column), at(row, column + 1)];
+            let [c, d] = [at(row + 1, column + 1), at(row + 1, column)];
+            match row {
+                0 => self.polygon(material, &[a, c, d]),
+                11 => self.polygon(material, &[a, b, d]),
+                _ => self.polygon(material, &[a, b, c, d]),
+            };
         }
     }
 
