@@ -161,7 +161,7 @@ def check(view, directory):
     textured = "textured" in name
     done = []
     for what in ["vertices", "lightmap"]:
-        mesh = load(directory / (f"{name}.glb" if what == "vertices" else f"{name}-map.glb"))
+        mesh = load(directory / (f"{name}.glb" if what == "vertices" else f"{name}.lightmap.glb"))
         if what == "vertices" and textured:
             # Vertices have the light of the texture's mean.
             done.append("vertices found")
@@ -169,7 +169,7 @@ def check(view, directory):
         if what == "vertices":
             emit_vertices(mesh)
         else:
-            emit_map(mesh, directory / f"{name}-map.lightmap.exr")
+            emit_map(mesh, directory / f"{name}.lightmap.exr")
         apart = difference(render(view, directory / f"{name}-blender-{what}.exr"), pixels(ours))
         must(apart < RADIANCE, f"{what}: radiance {apart:.2%} from our picture")
         done.append(f"{what} within {apart:.2%}")

@@ -22,7 +22,7 @@ const SCENES = [
 const run = (...options) => execFileSync(program, options.map(String), { stdio: ["ignore", "ignore", "inherit"] });
 for (const { name, file, eye, target, fov, width, height } of SCENES) {
   const place = (ending) => join(directory, `${name}${ending}`);
-  run("solve", file, "--quality", "draft", "-q", "-o", place(".glb"), "--lightmap", place("-map.glb"));
+  run("solve", file, "--quality", "draft", "-q", "-o", place(".glb"), "--lightmap", 1024);
   for (const ending of [".png", ".exr"]) {
     run("render", place(".glb"), "-q", "-o", place(ending), "--eye", eye, "--target", target, "--fov", fov, "--size", `${width}x${height}`);
   }

@@ -86,7 +86,7 @@ async function vertices(page, scene, directory) {
 
 async function lightmap(page, scene, directory) {
   const { meshes, glossy, diffuse, shades, agreement } = await page.evaluate((scene) => mapLight(scene), scene);
-  counted(meshes, join(directory, `${scene.name}-map.glb`));
+  counted(meshes, join(directory, `${scene.name}.lightmap.glb`));
   for (const { attributes, material } of meshes) {
     must(attributes.includes("uv1"), `no uv1 in ${attributes}`);
     must(material === "MeshStandardMaterial", material);

@@ -14,52 +14,52 @@ use super::meter::Meter;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Writing")]
 pub(crate) struct LightmapOptions {
-    /// Lightmap to write: the surfaces without refinement, and beside FILE.glb the maps of their light
+    /// Write a lightmap, too: the surfaces without refinement, and square maps of their light, 16 to 8192 texels wide
     ///
-    /// FILE.glb has second texture coordinates for the maps, and materials with the surfaces' own colours,
-    /// pictures and emission. FILE.lightmap.exr holds linear light, irradiance by π: what is seen is
-    /// albedo × texel + emission, in W/(m² sr). FILE.lightmap.png is the same exposed as the colours of other
+    /// Beside the first output, `room.glb`: `room.lightmap.glb` with second texture coordinates for the maps, and materials
+    /// with the surfaces' own colours, pictures and emission; `room.lightmap.exr` with linear light, irradiance by π: what
+    /// is seen is albedo × texel + emission, in W/(m² sr); `room.lightmap.png`, the same exposed as the colours of other
     /// outputs are, sRGB.
-    #[arg(long, value_name = "FILE.glb")]
-    pub(crate) lightmap: Option<PathBuf>,
-
-    /// With --lightmap: texels along a side of the square maps, 16 to 8192
-    #[arg(long, value_name = "TEXELS", default_value_t = 1024, requires = "lightmap")]
+    #[arg(long, value_name = "SIZE", requires = "output")]
     #[arg(value_parser = clap::value_parser!(u32).range(i64::from(*SIZES.start())..=i64::from(*SIZES.end())))]
-    lightmap_size: u32,
+    lightmap: Option<u32>,
 }
 
 impl LightmapOptions {
     /// Whether the files could be written.
-    pub(crate) fn check(&self) -> Result<()> {
-        self.lightmap.as_deref().map_or(Ok(()), check_writable_lightmap)
+    pub(crate) fn check(&self, outputs: &[PathBuf]) -> Result<()> {
+        self.path(outputs).as_deref().map_or(Ok(()), check_writable_lightmap)
     }
 
-    /// The files to write.
-    pub(crate) fn files(&self) -> Vec<PathBuf> {
-        self.lightmap.as_deref().map_or_else(Vec::new, |path| lightmap_files(path).to_vec())
+    /// The files to write beside other outputs.
+    pub(crate) fn files(&self, outputs: &[PathBuf]) -> Vec<PathBuf> {
+        self.path(outputs).map_or_else(Vec::new, |path| lightmap_files(&path).to_vec())
+    }
+
+    fn path(&self, outputs: &[PathBuf]) -> Option<PathBuf> {
+        self.lightmap.and(outputs.first()).map(|output| output.with_extension("lightmap.glb"))
     }
 
     /// The place of every surface in the maps, found before long work.
     pub(crate) fn atlas(&self, surfaces: &Surfaces) -> Result<Option<Atlas>> {
-        self.lightmap.as_ref().map(|_| Atlas::new(surfaces, self.lightmap_size)).transpose()
+        self.lightmap.map(|size| Atlas::new(surfaces, size)).transpose()
     }
 
     /// Writes the files, if they are asked for.
     pub(crate) fn write(
         &self,
-        atlas: Option<&Atlas>,
+        (atlas, outputs): (Option<&Atlas>, &[PathBuf]),
         subject: &Subject<'_>,
         stamp: &Stamp,
         meter: &mut Meter,
     ) -> Result<()> {
-        let wanted = self.lightmap.as_ref().zip(atlas).zip(subject.solved);
+        let wanted = self.path(outputs).zip(atlas).zip(subject.solved);
         let Some(((path, atlas), Solved { surfaces, solution, .. })) = wanted else {
             return Ok(());
         };
         meter.begin("lightmap");
         let map = bake(surfaces, atlas, solution, subject.mesh);
-        save_lightmap(&map, subject.mesh, path, stamp)?;
+        save_lightmap(&map, subject.mesh, &path, stamp)?;
         let (charts, density) = (atlas.charts.len(), atlas.density);
         meter.tell(&format!("lightmap of {charts} charts, {density:.1} texels to a metre"));
         Ok(())

@@ -32,17 +32,17 @@ pub(crate) fn check(
 pub(crate) fn check_lightmap(
     input: &Path,
     lightmap: &LightmapOptions,
-    others: [&[PathBuf]; 2],
+    (meshes, pictures): (&[PathBuf], &[PathBuf]),
 ) -> Result<()> {
-    for path in lightmap.files() {
+    for path in lightmap.files(meshes) {
         refuse_input(input, &path)?;
-        if others.iter().any(|paths| paths.contains(&path)) {
+        if meshes.contains(&path) || pictures.contains(&path) {
             let message =
                 "is to be written twice: a lightmap has a coarse mesh and maps of its own";
             return Err(Error::format(&path, message));
         }
     }
-    lightmap.check()
+    lightmap.check(meshes)
 }
 
 /// The same for matrices of form factors.

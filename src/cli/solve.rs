@@ -98,7 +98,7 @@ Examples:
   radiosity solve room.glb -o room-lit.ply --image mesh.png --view wireframe --tolerance 1.5%
   radiosity solve kitchen.obj --image final.png --image mesh.png --view light,reason --final-gather
   radiosity solve scenes/office.obj --quality draft --html office.html --snapshots 1,2,24,100
-  radiosity solve scenes/office.obj --quality draft --lightmap office.glb --lightmap-size 2048
+  radiosity solve scenes/office.obj -o office.glb --lightmap 2048
   radiosity solve scenes/bare-room.obj --emit 'lamp*=800lm' --sky cie-overcast --image lit.png
   radiosity solve scenes/two-rooms.obj --relightable -o rooms.glb
   radiosity solve hall.glb -o lit.glb --quality high --checkpoint hall.work --resume
@@ -197,7 +197,7 @@ impl Solve {
         let tables: Vec<&Path> = self.tables().map(PathBuf::as_path).collect();
         outputs::check(&self.scene.path, &self.output, &self.image, &tables)?;
         self.checkpoint.check(&self.scene.path)?;
-        outputs::check_lightmap(&self.scene.path, &self.lightmap, [&self.output, &self.image])?;
+        outputs::check_lightmap(&self.scene.path, &self.lightmap, (&self.output, &self.image))?;
         self.page.check()?;
         self.picture.views(&self.image)?;
         Ok(())
@@ -213,7 +213,7 @@ impl Solve {
     fn written(&self) -> impl Iterator<Item = PathBuf> {
         let meshes_and_pictures = self.output.iter().chain(&self.image);
         let all = meshes_and_pictures.chain(self.tables()).chain(&self.page.html);
-        all.cloned().chain(self.lightmap.files())
+        all.cloned().chain(self.lightmap.files(&self.output))
     }
 
     fn tables(&self) -> impl Iterator<Item = &PathBuf> {
@@ -242,7 +242,7 @@ impl Solve {
         for path in &self.output {
             export::save(subject.mesh, path, stamp)?;
         }
-        self.lightmap.write(atlas, subject, stamp, meter)?;
+        self.lightmap.write((atlas, &self.output), subject, stamp, meter)?;
         Ok(())
     }
 

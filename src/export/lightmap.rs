@@ -17,9 +17,9 @@ use crate::tone::tone_map;
 /// The only ending of the mesh.
 const ENDING: &str = ".glb";
 
-/// The files of a lightmap whose mesh is `room.glb`: that, `room.lightmap.exr` and `room.lightmap.png`.
+/// The files of a lightmap whose mesh is `room.glb`: that, `room.exr` and `room.png`.
 pub fn lightmap_files(path: &Path) -> [PathBuf; 3] {
-    let [exr, png] = ["lightmap.exr", "lightmap.png"].map(|ending| path.with_extension(ending));
+    let [exr, png] = ["exr", "png"].map(|ending| path.with_extension(ending));
     [path.to_owned(), exr, png]
 }
 

@@ -65,7 +65,7 @@ impl Atlas {
     /// # Errors
     /// When `size` is not in [`SIZES`], or too small to hold every chart.
     pub fn new(surfaces: &Surfaces, size: u32) -> Result<Self> {
-        let wrong = |message| Error::Setting { name: "lightmap-size", message };
+        let wrong = |message| Error::Setting { name: "lightmap", message };
         if !SIZES.contains(&size) {
             let (least, most) = (SIZES.start(), SIZES.end());
             return Err(wrong(format!("a map has {least} to {most} texels along a side")));

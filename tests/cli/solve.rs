@@ -181,10 +181,9 @@ fn a_reader_that_leaves_early_is_no_failure() {
 #[test]
 fn a_lightmap_is_a_coarse_mesh_and_its_maps() {
     let place = Place::new();
-    let map = ["--lightmap", "deep/room.glb", "--lightmap-size", "64"];
-    let outcome = place.solve(&[&map[..], &["-o", "room.glb"]].concat()).done();
+    let outcome = place.solve(&["-o", "deep/room.glb", "--lightmap", "64"]).done();
     for (name, start) in [
-        ("deep/room.glb", &b"glTF"[..]),
+        ("deep/room.lightmap.glb", &b"glTF"[..]),
         ("deep/room.lightmap.exr", b"\x76\x2f\x31\x01"),
         ("deep/room.lightmap.png", PNG),
     ] {
@@ -192,7 +191,7 @@ fn a_lightmap_is_a_coarse_mesh_and_its_maps() {
         assert!(outcome.stdout.contains(name), "{}", outcome.stdout);
     }
     let length = |name| std::fs::metadata(place.path(name)).map_or(0, |file| file.len());
-    assert!(length("deep/room.glb") < length("room.glb") / 2);
+    assert!(length("deep/room.lightmap.glb") < length("deep/room.glb") / 2);
 }
 
 #[test]
@@ -204,12 +203,12 @@ fn a_lightmap_that_cannot_be_is_refused_before_the_work() {
         assert!(outcome.stderr.contains(words), "{outcome:?}");
         assert!(!outcome.stderr.contains("shots"), "{outcome:?}");
     };
-    refused(&["--lightmap", "a.glb", "--lightmap-size", "8"], 2, "16..=8192");
-    refused(&["--lightmap", "a.glb", "--lightmap-size", "16"], 2, "17 charts");
-    refused(&["--lightmap", "a.obj"], 2, ".glb");
-    refused(&["--lightmap", "a.glb", "-o", "a.glb"], 1, "written twice");
-    refused(&["--lightmap", "a.glb", "--image", "a.lightmap.png"], 1, "written twice");
-    refused(&["--lightmap-size", "64"], 2, "--lightmap");
+    let lightmap = ["-o", "a.glb", "--lightmap"];
+    refused(&[&lightmap[..], &["8"]].concat(), 2, "16..=8192");
+    refused(&[&lightmap[..], &["16"]].concat(), 2, "17 charts");
+    refused(&[&lightmap[..], &["64", "-o", "a.lightmap.glb"]].concat(), 1, "written twice");
+    refused(&[&lightmap[..], &["64", "--image", "a.lightmap.png"]].concat(), 1, "written twice");
+    refused(&["--lightmap", "64"], 2, "--output");
     let written = std::fs::read_dir(place.path(".")).expect("the directory is there").count();
     assert_eq!(written, 0, "files are left behind");
 }

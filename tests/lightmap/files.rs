@@ -12,7 +12,7 @@ use crate::scenes::{BALL, Lit};
 
 fn written(lit: &Lit, size: u32) -> Vec<Vec<u8>> {
     let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("ball.glb");
+    let path = directory.path().join("ball.lightmap.glb");
     let atlas = Atlas::new(&lit.surfaces, size).unwrap();
     let map = bake(&lit.surfaces, &atlas, &lit.solution, &lit.mesh);
     save_lightmap(&map, &lit.mesh, &path, &Stamp::default()).unwrap();
