@@ -6,6 +6,8 @@
 //!
 //! [Cohen, Chen, Wallace and Greenberg 1988]: https://doi.org/10.1145/54852.378487
 
+mod state;
+
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
@@ -25,6 +27,8 @@ use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
 
+use state::last_state;
+
 /// Links kept for later shots; beyond them, rows are made anew.
 const KEPT_LINKS: usize = 8_000_000;
 
@@ -33,23 +37,6 @@ const KEPT_LINKS: usize = 8_000_000;
 struct Held {
     unshot: Vec<Rgb>,
     pending: Vec<Rgb>,
-}
-
-/// What shooting has come to: the same, when it is taken up again, as if it had never been left.
-#[derive(Serialize, Deserialize)]
-struct State {
-    course: Course,
-    /// Why it has ended, once it has.
-    stop: Option<Stop>,
-    held: Held,
-    remembered: Option<Held>,
-    received: Vec<Rgb>,
-    energy: Energy,
-    shots: usize,
-    hemicubes: usize,
-    factors: u64,
-    /// Whose rows are there.
-    ready: Vec<usize>,
 }
 
 /// A solution by shooting under way.
@@ -209,35 +196,6 @@ impl<'a> Shooting<'a> {
         Ok((stop, course.history))
     }
 
-    /// The state to go on from, once the history is this.
-    fn state(&self, course: &Course, stop: Option<Stop>) -> State {
-        let rows = self.rows.iter().enumerate().filter(|(_, row)| row.is_some());
-        State {
-            course: course.clone(),
-            stop,
-            held: Held { unshot: self.unshot.clone(), pending: self.pending.clone() },
-            remembered: self.remembered.clone(),
-            received: self.received.clone(),
-            energy: self.energy,
-            shots: self.shots,
-            hemicubes: self.hemicubes,
-            factors: self.factors,
-            ready: rows.map(|(row, _)| row).collect(),
-        }
-    }
-
-    /// Goes on from a state, with the rows that were there made anew if any will be needed.
-    fn take_up(&mut self, state: State) -> (Course, Option<Stop>) {
-        if state.stop.is_none() {
-            self.make_rows(&state.ready);
-        }
-        (self.unshot, self.pending) = (state.held.unshot, state.held.pending);
-        (self.remembered, self.received) = (state.remembered, state.received);
-        (self.energy, self.shots) = (state.energy, state.shots);
-        (self.hemicubes, self.factors) = (state.hemicubes, state.factors);
-        (state.course, state.stop)
-    }
-
     /// Gives all patches of a group what they have received together.
     fn spread_over_groups(&mut self) {
         for group in 0..self.groups.len() {
@@ -383,16 +341,6 @@ impl Residuals for Shooting<'_> {
         self.shots += 1;
         released
     }
-}
-
-/// The last state that was kept of an exchange; none after its end was.
-fn last_state(observer: &mut Observer<'_>) -> Option<State> {
-    let mut last: Option<State> = None;
-    while observer.flow.is_continue() && last.as_ref().is_none_or(|state| state.stop.is_none()) {
-        let Some(state) = observer.checkpoint.next() else { break };
-        last = Some(state);
-    }
-    last
 }
 
 /// The radiosity that a shooter releases, W/m².

@@ -1,0 +1,66 @@
+//! What an exchange of light has come to, so that it can be taken up again.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Held, Shooting};
+use crate::colour::Rgb;
+use crate::solver::relaxation::Course;
+use crate::solver::{Energy, Observer, Stop};
+
+/// What shooting has come to: the same, when it is taken up again, as if it had never been left.
+#[derive(Serialize, Deserialize)]
+pub(super) struct State {
+    course: Course,
+    /// Why it has ended, once it has.
+    stop: Option<Stop>,
+    held: Held,
+    remembered: Option<Held>,
+    received: Vec<Rgb>,
+    energy: Energy,
+    shots: usize,
+    hemicubes: usize,
+    factors: u64,
+    /// Whose rows are there.
+    ready: Vec<usize>,
+}
+
+impl Shooting<'_> {
+    /// The state to go on from, once the history is this.
+    pub(super) fn state(&self, course: &Course, stop: Option<Stop>) -> State {
+        let rows = self.rows.iter().enumerate().filter(|(_, row)| row.is_some());
+        State {
+            course: course.clone(),
+            stop,
+            held: Held { unshot: self.unshot.clone(), pending: self.pending.clone() },
+            remembered: self.remembered.clone(),
+            received: self.received.clone(),
+            energy: self.energy,
+            shots: self.shots,
+            hemicubes: self.hemicubes,
+            factors: self.factors,
+            ready: rows.map(|(row, _)| row).collect(),
+        }
+    }
+
+    /// Goes on from a state, with the rows that were there made anew if any will be needed.
+    pub(super) fn take_up(&mut self, state: State) -> (Course, Option<Stop>) {
+        if state.stop.is_none() {
+            self.make_rows(&state.ready);
+        }
+        (self.unshot, self.pending) = (state.held.unshot, state.held.pending);
+        (self.remembered, self.received) = (state.remembered, state.received);
+        (self.energy, self.shots) = (state.energy, state.shots);
+        (self.hemicubes, self.factors) = (state.hemicubes, state.factors);
+        (state.course, state.stop)
+    }
+}
+
+/// The last state that was kept of an exchange; none after its end was.
+pub(super) fn last_state(observer: &mut Observer<'_>) -> Option<State> {
+    let mut last: Option<State> = None;
+    while observer.flow.is_continue() && last.as_ref().is_none_or(|state| state.stop.is_none()) {
+        let Some(state) = observer.checkpoint.next() else { break };
+        last = Some(state);
+    }
+    last
+}
