@@ -65,11 +65,18 @@ fn evaluate<T: Sync, R: Send + Serialize + DeserializeOwned>(
     observer: &mut Observer<'_>,
 ) -> Vec<R> {
     let lamps = light.lamps();
-    let batches = observer
-        .evaluate(items, |batch| (batch.par_iter().map(&work).collect::<Vec<R>>(), lamps.counts()));
-    if let Some((_, counts)) = batches.last() {
-        lamps.count_from(*counts);
+    let mut counts = lamps.counts();
+    let batches = observer.evaluate(items, |batch| {
+        let before = lamps.counts();
+        let results: Vec<R> = batch.par_iter().map(&work).collect();
+        let after = lamps.counts();
+        (results, [0, 1].map(|k| after[k] - before[k]))
+    });
+    // What comes from a checkpoint has not been counted.
+    for (_, [evaluations, rays]) in &batches {
+        counts = [counts[0] + evaluations, counts[1] + rays];
     }
+    lamps.count_from(counts);
     batches.into_iter().flat_map(|(results, _)| results).collect()
 }
 
