@@ -142,7 +142,7 @@ fn a_size_out_of_range_or_too_small_is_refused() {
     let surfaces = surfaces_of(&room());
     for size in [0, SIZES.start() - 1, SIZES.end() + 1, 16] {
         let error = Atlas::new(&surfaces, size).unwrap_err();
-        assert!(matches!(error, Error::Setting { name: "lightmap-size", .. }), "{size}: {error}");
+        assert!(matches!(error, Error::Setting { name: "lightmap", .. }), "{size}: {error}");
     }
     assert!(Atlas::new(&surfaces, 64).is_ok());
 }
