@@ -5,6 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use glam::DVec3;
 use radiosity::scene::{Camera, Light, NamedLight, Sky};
 use radiosity::{Length, Scene, Settings};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -162,10 +163,8 @@ struct NamedSky {
 
 /// The skies and suns that a stamp's settings hold.
 pub(crate) fn lights(settings: &Value) -> Vec<NamedLight> {
-    let records = settings.get("sky").cloned().unwrap_or_default();
-    let records: Vec<NamedSky> = serde_json::from_value(records).unwrap_or_default();
     let light = |NamedSky { name, sky }| Some(NamedLight { name, light: sky.light()? });
-    records.into_iter().filter_map(light).collect()
+    kept(settings, "sky").into_iter().filter_map(light).collect()
 }
 
 /// Puts the skies and suns among some lights into a stamp's settings.
@@ -174,6 +173,12 @@ pub(crate) fn keep_lights(settings: &mut Value, lights: &[NamedLight]) {
         Some(NamedSky { name: name.clone(), sky: SkyRecord::new(light)? })
     };
     keep(settings, "sky", &lights.iter().filter_map(record).collect::<Vec<_>>());
+}
+
+/// A list in a stamp's settings; empty if there is none that can be read.
+fn kept<T: DeserializeOwned>(settings: &Value, name: &str) -> Vec<T> {
+    let list = settings.get(name).cloned().unwrap_or_default();
+    serde_json::from_value(list).unwrap_or_default()
 }
 
 fn keep(settings: &mut Value, name: &str, list: &impl Serialize) {
@@ -193,9 +198,7 @@ pub(crate) fn stamped(settings: &SettingsRecord, scene: &Scene) -> Value {
 
 /// The cameras that a stamp's settings hold; none if they were written by something else.
 pub(crate) fn cameras(settings: &Value) -> Vec<Camera> {
-    let records = settings.get("cameras").cloned().unwrap_or_default();
-    let records: Vec<CameraRecord> = serde_json::from_value(records).unwrap_or_default();
-    records.into_iter().filter_map(CameraRecord::camera).collect()
+    kept(settings, "cameras").into_iter().filter_map(CameraRecord::camera).collect()
 }
 
 /// Three numbers, to four digits behind the point at most.

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use super::TriMesh;
 use crate::colour::{LUMENS_PER_WATT, Rgb};
 use crate::error::{Error, Result};
-use crate::scene::matches;
+use crate::scene::named;
 use crate::surface::{LightGroup, StrengthUnit};
 
 /// What becomes of a light.
@@ -99,34 +99,17 @@ impl TriMesh {
     /// When the mesh does not keep lights apart, there is none of this name, or its strength cannot be told that way.
     pub fn dim(&mut self, pattern: &str, dimming: Dimming) -> Result<()> {
         let wrong = |message: String| Error::Setting { name: "light", message };
-        let named = |exactly: bool| -> Vec<usize> {
-            let is_meant = |name: &str| {
-                if exactly { name == pattern } else { matches(pattern, name) }
-            };
-            let lights = self.lights.iter().enumerate();
-            lights.filter(|(_, light)| is_meant(&light.group.name)).map(|(k, _)| k).collect()
-        };
-        // A name may itself have a star in it: that of a group often does.
-        let found = Some(named(true)).filter(|found| !found.is_empty());
-        let found = found.unwrap_or_else(|| named(false));
-        if found.is_empty() {
-            return Err(wrong(self.unknown(pattern)));
+        if self.lights.is_empty() {
+            let message = "the lights of this mesh are not kept apart; solve it with --relightable";
+            return Err(wrong(message.to_owned()));
         }
+        let names = self.lights.iter().map(|light| light.group.name.as_str());
+        let found = named("light", pattern, names).map_err(wrong)?;
         for light in found {
             let strength = dimming.applied_to(&self.lights[light].group).map_err(wrong)?;
             self.relight(light, strength);
         }
         Ok(())
-    }
-
-    fn unknown(&self, pattern: &str) -> String {
-        let names: Vec<String> =
-            self.lights.iter().map(|light| format!("\"{}\"", light.group.name)).collect();
-        if names.is_empty() {
-            return "the lights of this mesh are not kept apart; solve it with --relightable"
-                .to_owned();
-        }
-        format!("no light \"{pattern}\"; there are {}", names.join(", "))
     }
 }
 

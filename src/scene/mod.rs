@@ -37,7 +37,7 @@ pub(crate) use light::SUN_RADIUS;
 pub use light::{DESIGN_SKY, Light, NamedLight, Sky, clear_sun};
 pub use load::load;
 pub use material::{MAX_REFLECTANCE, Material, Texture};
-pub(crate) use names::matches;
+pub(crate) use names::{matches, named};
 pub(crate) use notes::note_count;
 pub use photometry::Photometry;
 pub(crate) use polygon::area_vector;

@@ -1,4 +1,4 @@
-//! Materials by their names, or by patterns of them.
+//! Things by their names, or by patterns of them.
 
 use super::Scene;
 
@@ -8,30 +8,39 @@ const OFFERED: usize = 12;
 impl Scene {
     /// The materials whose names are `pattern`, in which `*` stands for any text and `?` for any character.
     pub(super) fn materials_named(&self, pattern: &str) -> Result<Vec<usize>, String> {
-        let names = || self.materials.iter().map(|material| material.name.as_str()).enumerate();
-        // A name may itself have a star in it.
-        let mut found: Vec<usize> =
-            names().filter(|(_, n)| *n == pattern).map(|(k, _)| k).collect();
-        if found.is_empty() {
-            found = names().filter(|(_, name)| matches(pattern, name)).map(|(k, _)| k).collect();
-        }
-        if found.is_empty() { Err(self.unknown(pattern)) } else { Ok(found) }
+        let names = self.materials.iter().map(|material| material.name.as_str());
+        named("material", pattern, names)
     }
+}
 
-    fn unknown(&self, pattern: &str) -> String {
-        let mut names: Vec<(usize, &str)> = self
-            .materials
-            .iter()
-            .map(|material| (distance(pattern, &material.name), material.name.as_str()))
-            .collect();
-        names.sort();
-        names.dedup();
-        let more = names.len().saturating_sub(OFFERED);
-        let shown: Vec<String> =
-            names.iter().take(OFFERED).map(|(_, name)| format!("\"{name}\"")).collect();
-        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-        format!("no material \"{pattern}\"; there are {}{more}", shown.join(", "))
+/// The numbers of the names that are `pattern`, or, if none is, of those that it describes; there must be some, or
+/// the message says which `kind` of thing is missing, and what there is.
+pub(crate) fn named<'n>(
+    kind: &str,
+    pattern: &str,
+    names: impl Iterator<Item = &'n str> + Clone,
+) -> Result<Vec<usize>, String> {
+    let numbers = |is_meant: &dyn Fn(&str) -> bool| -> Vec<usize> {
+        let meant = names.clone().enumerate().filter(|(_, name)| is_meant(name));
+        meant.map(|(number, _)| number).collect()
+    };
+    // A name may itself have a star in it.
+    let mut found = numbers(&|name| name == pattern);
+    if found.is_empty() {
+        found = numbers(&|name| matches(pattern, name));
     }
+    if found.is_empty() { Err(unknown(kind, pattern, names)) } else { Ok(found) }
+}
+
+fn unknown<'n>(kind: &str, pattern: &str, names: impl Iterator<Item = &'n str>) -> String {
+    let mut names: Vec<(usize, &str)> = names.map(|name| (distance(pattern, name), name)).collect();
+    names.sort();
+    names.dedup();
+    let more = names.len().saturating_sub(OFFERED);
+    let shown: Vec<String> =
+        names.iter().take(OFFERED).map(|(_, name)| format!("\"{name}\"")).collect();
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    format!("no {kind} \"{pattern}\"; there are {}{more}", shown.join(", "))
 }
 
 /// Whether a name is what a pattern describes.

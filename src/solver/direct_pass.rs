@@ -90,16 +90,14 @@ fn light_together(
     if let &[vertex] = vertices {
         return SmallVec::from_buf([at(vertex)]);
     }
-    let open = |v: VertexId| light.unoccluded(mesh[v].patch, mesh[v].site);
-    let most = |&&a: &&VertexId, &&b: &&VertexId| strength(open(a)).total_cmp(&strength(open(b)));
-    let best = vertices.iter().max_by(most).map_or_else(Direct::default, |&v| at(v));
+    let open: SmallVec<[Rgb; 8]> =
+        vertices.iter().map(|&v| light.unoccluded(mesh[v].patch, mesh[v].site)).collect();
+    let most = |a: &usize, b: &usize| strength(open[*a]).total_cmp(&strength(open[*b]));
+    let best = (0..open.len()).max_by(most).map_or_else(Direct::default, |k| at(vertices[k]));
     let reached = best.unoccluded.cmpgt(Rgb::ZERO);
     let share = Rgb::select(reached, best.irradiance / best.unoccluded, Rgb::ONE);
-    let direct = |&v: &VertexId| {
-        let unoccluded = open(v);
-        Direct { irradiance: unoccluded * share, unoccluded }
-    };
-    vertices.iter().map(direct).collect()
+    let direct = |unoccluded| Direct { irradiance: unoccluded * share, unoccluded };
+    open.into_iter().map(direct).collect()
 }
 
 /// Evaluates direct light at the corners of all leaves, and in their middle, as their means need.
