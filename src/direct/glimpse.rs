@@ -1,10 +1,8 @@
 //! Direct light by a ray to each lamp: right on the mean, and cheap.
 
-use std::borrow::Cow;
-
 use glam::DVec3;
 
-use super::{AreaLamp, Lamps};
+use super::{Lamp, Lamps, View, punctual};
 use crate::colour::Rgb;
 use crate::visibility::Occluders;
 
@@ -23,49 +21,28 @@ impl Lamps {
         (place, normal): (DVec3, DVec3),
         mut random: impl FnMut() -> f64,
     ) -> Rgb {
+        let receiver = (place, normal);
+        let views: Vec<View<'_>> =
+            self.list.iter().filter_map(|lamp| lamp.view(receiver)).collect();
+        let all: f64 = views.iter().map(|view| view.unoccluded().element_sum()).sum();
         let mut light = Rgb::ZERO;
-        let mut hidden = |lamp: &AreaLamp, above: &[DVec3], share: f64| {
-            let (at, area) = place_on(above, [random(), random()]);
-            let chance = (share / WORTH_A_RAY).min(1.0);
+        for view in &views {
+            let sent = view.unoccluded();
+            let (at, area) = place_on(&view.polygon, [random(), random()]);
+            let chance = (sent.element_sum() / all / WORTH_A_RAY).min(1.0);
             let looks = chance >= 1.0 || random() < chance;
-            if looks && occluders.blocks(place, at) {
-                area * lamp.kernel(place, normal, at) / chance
-            } else {
-                0.0
-            }
-        };
-        let reached: Vec<_> =
-            self.areas.iter().map(|lamp| (lamp, lamp.reach(place, normal))).collect();
-        let sent = |(lamp, above): &(&AreaLamp, Cow<'_, [DVec3]>)| {
-            if above.is_empty() {
-                Rgb::ZERO
-            } else {
-                lamp.exitance * lamp.glow.weight((place, normal), above)
-            }
-        };
-        let sent: Vec<Rgb> = reached.iter().map(sent).collect();
-        let all = sent.iter().sum::<Rgb>().element_sum();
-        for ((lamp, above), sent) in reached.iter().zip(&sent) {
-            if sent.element_sum() > 0.0 {
-                light += *sent - lamp.exitance * hidden(lamp, above, sent.element_sum() / all);
+            let is_hidden = looks && !view.sees(occluders, at);
+            let hidden = if is_hidden { area * view.kernel(at) / chance } else { 0.0 };
+            light += sent - view.exitance * hidden;
+        }
+        for lamp in &self.list {
+            if let Lamp::Point(point) = lamp
+                && let Some((direct, _)) = punctual::shine(point, occluders, receiver)
+            {
+                light += direct.irradiance;
             }
         }
-        light + self.points_shine(occluders, place, normal).irradiance
-    }
-}
-
-impl AreaLamp {
-    /// Weight of a small piece of the lamp over its area, 1/m²: cos cos / (π d²) where it glows evenly.
-    fn kernel(&self, place: DVec3, normal: DVec3, at: DVec3) -> f64 {
-        let way = at - place;
-        let square = way.length_squared();
-        let cosines = way.dot(normal).max(0.0) * (-way.dot(self.front.normal)).max(0.0);
-        if square > 0.0 {
-            self.glow.radiance(way / square.sqrt()) * cosines
-                / (std::f64::consts::PI * square * square)
-        } else {
-            0.0
-        }
+        light
     }
 }
 

@@ -14,7 +14,7 @@
 
 use glam::DVec3;
 
-use super::AreaLamp;
+use super::lamp::AreaLamp;
 use super::rims::Rims;
 use crate::visibility::{Facet, HalfSpace, Occluders};
 

@@ -3,7 +3,9 @@
 use glam::{DQuat, DVec3};
 
 use crate::colour::{LUMENS_PER_WATT, Rgb};
+use crate::mesh::Direct;
 use crate::scene::Light;
+use crate::visibility::Occluders;
 
 /// Where the light of a punctual light comes from, as seen from a place.
 pub(super) enum Source {
@@ -11,6 +13,28 @@ pub(super) enum Source {
     Position(DVec3),
     /// A unit direction, towards the light.
     Direction(DVec3),
+}
+
+impl Source {
+    /// The far end of a shadow ray from a place.
+    pub(super) fn end(&self, place: DVec3, occluders: &Occluders) -> DVec3 {
+        match *self {
+            Self::Position(position) => position,
+            Self::Direction(direction) => place + direction * occluders.extent(),
+        }
+    }
+}
+
+/// What arrives at a place with a unit normal, if something may, and the rays that this took.
+pub(super) fn shine(
+    light: &Light,
+    occluders: &Occluders,
+    (place, normal): (DVec3, DVec3),
+) -> Option<(Direct, u64)> {
+    let (unoccluded, source) = irradiance(light, place, normal)?;
+    let hidden = occluders.blocks(place, source.end(place, occluders));
+    let irradiance = if hidden { Rgb::ZERO } else { unoccluded };
+    Some((Direct { irradiance, unoccluded }, 1))
 }
 
 /// Irradiance of an unshadowed place with unit `normal`, W/m²; `None` where none arrives.

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::{AreaLamp, Glow};
+use super::{AreaLamp, RadianceProfile};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon_above;
 use crate::scene::{SUN_RADIUS, Sky};
@@ -23,15 +23,15 @@ const FAR: f64 = 1e4;
 pub(super) fn lamps(surfaces: &Surfaces, sky: Sky, irradiance: Rgb) -> Vec<AreaLamp> {
     let Some((low, high)) = surfaces.bounds() else { return Vec::new() };
     let (centre, size) = (low.midpoint(high).with_y(high.y), FAR * surfaces.extent);
-    let (exitance, glow) = match sky {
-        Sky::Uniform => (irradiance, Glow::Even),
+    let (exitance, profile) = match sky {
+        Sky::Uniform => (irradiance, RadianceProfile::UniformSky),
         // E = 7/9 π Lz.
-        Sky::Overcast => (irradiance * 9.0 / 7.0, Glow::Overcast),
+        Sky::Overcast => (irradiance * 9.0 / 7.0, RadianceProfile::OvercastSky),
     };
     let lamp = |corners: [DVec3; 4]| {
         let corners: Polygon = corners.iter().map(|&corner| centre + corner * size).collect();
         let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
-        AreaLamp { front: HalfSpace::new(corners[0], normal), corners, exitance, glow }
+        AreaLamp { front: HalfSpace::new(corners[0], normal), corners, exitance, profile }
     };
     squares().map(lamp).collect()
 }
@@ -49,7 +49,7 @@ pub(super) fn sun(surfaces: &Surfaces, direction: DVec3, irradiance: Rgb) -> Opt
         Polygon::from_slice(&[centre - u - v, centre + u - v, centre + u + v, centre - u + v]);
     let factor = point_to_polygon_above(middle, -direction, &corners);
     let (front, exitance) = (HalfSpace::new(centre, direction), irradiance / factor);
-    Some(AreaLamp { corners, front, exitance, glow: Glow::Surface })
+    Some(AreaLamp { corners, front, exitance, profile: RadianceProfile::Diffuse })
 }
 
 /// The squares of a box of height 1 around the origin, without a bottom, facing inward.

@@ -68,7 +68,7 @@ pub fn discontinuities(
     let plane = &surfaces.list[*surface as usize].plane;
     let outline: Convex = corners.iter().map(|&p| plane.flatten(p)).collect();
     let borders = polygon::borders(&outline);
-    let inside = light.lines(patch).into_iter().filter_map(|Line { ends, lamp }| {
+    let inside = light.lines(mesh, patch).into_iter().filter_map(|Line { ends, lamp }| {
         let segment = ends.map(|p| plane.flatten(p));
         let segment = polygon::clip(segment, &borders, surfaces.tolerance)?;
         Some(Event { segment, lamps: smallvec![lamp] })
@@ -78,7 +78,7 @@ pub fn discontinuities(
         // All other light is smooth there, or has a line of its own.
         let by = |place: DVec2| {
             let chosen = |lamp| event.lamps.contains(&lamp);
-            strength(*reflectance * light.by(patch, plane.lift(place), chosen).irradiance)
+            Some(strength(*reflectance * light.exactly(patch, plane.lift(place), chosen)?))
         };
         weigh(event.segment, &borders, step, by)
     };
@@ -87,12 +87,12 @@ pub fn discontinuities(
 }
 
 /// What a line carries, from light at five places across its middle; nothing is known where these are
-/// not all inside the borders.
+/// not all inside the borders, or light is not known exactly.
 fn weigh(
     segment: Segment,
     borders: &[polygon::Line],
     step: f64,
-    light: impl Fn(DVec2) -> f64,
+    light: impl Fn(DVec2) -> Option<f64>,
 ) -> Option<Discontinuity> {
     let middle = (segment[0] + segment[1]) * 0.5;
     let across = (segment[1] - segment[0]).normalize_or_zero().perp() * step;
@@ -101,7 +101,11 @@ fn weigh(
     if !places.iter().all(is_inside) {
         return None;
     }
-    let [a, b, c, d, e] = places.map(light);
+    let mut known = [0.0; 5];
+    for (known, place) in known.iter_mut().zip(places) {
+        *known = light(place)?;
+    }
+    let [a, b, c, d, e] = known;
     // Derivatives on each side, exact for parabolas.
     let slopes = [(3.0 * c - 4.0 * b + a) / 2.0, (4.0 * d - 3.0 * c - e) / 2.0];
     let bends = [c - 2.0 * b + a, e - 2.0 * d + c];

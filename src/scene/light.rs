@@ -133,6 +133,16 @@ impl Sky {
 }
 
 impl Light {
+    /// Where it is, m; `None` if it is infinitely far away.
+    pub fn position(&self) -> Option<DVec3> {
+        match *self {
+            Self::Point { position, .. }
+            | Self::Spot { position, .. }
+            | Self::Luminaire { position, .. } => Some(position),
+            Self::Directional { .. } | Self::Sun { .. } | Self::Sky { .. } => None,
+        }
+    }
+
     /// What is seen of it in a unit `direction` far outside of the scene, W/(m² sr): of skies and suns. Nothing of
     /// lights that fill no angle.
     pub fn radiance(&self, direction: DVec3) -> Rgb {

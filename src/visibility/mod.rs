@@ -1,6 +1,7 @@
 //! What stands between two places: segment and shaft queries on a bounding volume hierarchy.
 
 mod between;
+mod blockers;
 mod clip;
 mod first;
 pub mod hierarchy;
@@ -8,6 +9,7 @@ pub mod packet;
 mod patches;
 mod shadow;
 mod shaft;
+mod visible;
 
 use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
@@ -19,11 +21,13 @@ use crate::surface::Surfaces;
 use crate::surface::cut::{Cuts, convex_pieces};
 
 pub use between::Between;
+pub use blockers::Blockers;
 pub use clip::{Facet, HalfSpace, Polygon};
 pub use first::Met;
 use hierarchy::hierarchy;
 pub use patches::PatchHierarchy;
-pub use shaft::Pieces;
+pub use shaft::{Body, Shaft};
+pub use visible::Pieces;
 
 /// All that blocks light: convex pieces of the surfaces, from both sides.
 #[derive(Clone)]
@@ -106,6 +110,11 @@ impl Occluders {
 
     /// True if an occluder crosses the segment from `a` to `b`, its ends left out.
     pub fn blocks(&self, a: DVec3, b: DVec3) -> bool {
+        self.blocks_beyond(a, b, |_| false)
+    }
+
+    /// The same for occluders of whose surfaces `ignored` is false.
+    pub fn blocks_beyond(&self, a: DVec3, b: DVec3, ignored: impl Fn(u32) -> bool) -> bool {
         if self.polygons.is_empty() {
             return false;
         }
@@ -114,26 +123,36 @@ impl Occluders {
         let along = (b - a).normalize_or_zero().as_vec3a();
         let ray = Ray::new((a - self.centre).as_vec3a(), along, 0.0, a.distance(b) as f32);
         !self.bvh.ray_traverse_miss(ray, |_, slot| {
-            if self.polygons[slot].crosses(a, b, self.tolerance) { 0.0 } else { f32::INFINITY }
+            let occluder = &self.polygons[slot];
+            let blocks = occluder.crosses(a, b, self.tolerance) && !ignored(occluder.surface);
+            if blocks { 0.0 } else { f32::INFINITY }
         })
     }
 
     /// Calls `visit` for the occluders in boxes that `enter` lets in, until it returns false.
     fn for_each(
         &self,
+        enter: impl FnMut(DVec3, DVec3) -> bool,
+        visit: impl FnMut(u32, &Occluder) -> bool,
+    ) {
+        let root: &[u32] = if self.polygons.is_empty() { &[] } else { &[0] };
+        self.for_each_under(root, enter, visit);
+    }
+
+    /// The same for those under some nodes of the hierarchy.
+    fn for_each_under(
+        &self,
+        nodes: &[u32],
         mut enter: impl FnMut(DVec3, DVec3) -> bool,
         mut visit: impl FnMut(u32, &Occluder) -> bool,
     ) {
-        let mut stack: SmallVec<[u32; 64]> = SmallVec::new();
-        if !self.polygons.is_empty() {
-            stack.push(0);
-        }
+        let mut stack: SmallVec<[u32; 96]> = nodes.iter().rev().copied().collect();
         while let Some(index) = stack.pop() {
-            let node = &self.bvh.nodes[index as usize];
-            let (low, high) = (node.aabb().min, node.aabb().max);
-            if !enter(low.as_dvec3() + self.centre, high.as_dvec3() + self.centre) {
+            let (low, high) = self.bounds_of(index);
+            if !enter(low, high) {
                 continue;
             }
+            let node = &self.bvh.nodes[index as usize];
             if !node.is_leaf() {
                 stack.extend([node.first_index + 1, node.first_index]);
                 continue;
@@ -144,6 +163,12 @@ impl Occluders {
                 }
             }
         }
+    }
+
+    /// Opposite corners of a node's box, m.
+    fn bounds_of(&self, node: u32) -> (DVec3, DVec3) {
+        let bounds = self.bvh.nodes[node as usize].aabb();
+        (bounds.min.as_dvec3() + self.centre, bounds.max.as_dvec3() + self.centre)
     }
 }
 

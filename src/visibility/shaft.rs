@@ -1,32 +1,88 @@
-//! The part of a light that a point sees: the light minus the shadows that occluders throw on it.
+//! Shafts: the convex hull of two bodies, outside of which nothing can stand between them.
+//!
+//! Based on: [Haines and Wallace 1991], with the planes of the exact hull instead of those of two boxes.
+//!
+//! [Haines and Wallace 1991]: https://doi.org/10.1007/978-3-642-57963-9_11
 
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::clip::{Facet, HalfSpace, Polygon};
-use super::shadow::{Seen, Shadow};
-use super::{Occluder, Occluders};
+use super::clip::{Facet, HalfSpace};
 
-/// The visible pieces of a polygon; they do not overlap.
-pub type Pieces = SmallVec<[Polygon; 2]>;
+/// A convex body: a point, a planar polygon or a box.
+#[derive(Clone, Debug)]
+pub struct Body {
+    corners: SmallVec<[DVec3; 8]>,
+    /// Its edges, as pairs of corners.
+    edges: SmallVec<[[u8; 2]; 12]>,
+    /// What it faces, if it does not look to all sides.
+    front: Option<HalfSpace>,
+}
 
-/// Beyond this many pieces, or shadows, a shaft is crowded, and cutting on costs more than sampling.
-const CROWDED: usize = 96;
-
-/// Shadows are sorted by size in lots of this many.
-const BATCH: usize = 64;
-
-/// Everything between a point and a polygon: a pyramid.
-struct Shaft {
-    sides: SmallVec<[HalfSpace; 10]>,
+/// Everything between two bodies, or between a point and a polygon.
+#[derive(Clone, Debug)]
+pub struct Shaft {
+    sides: SmallVec<[HalfSpace; 16]>,
     low: DVec3,
     high: DVec3,
 }
 
+impl Body {
+    /// A polygon that faces what is in front of it.
+    pub fn polygon(facet: Facet<'_>) -> Self {
+        let n = facet.corners.len() as u8;
+        Self {
+            corners: facet.corners.into(),
+            edges: (0..n).map(|k| [k, (k + 1) % n]).collect(),
+            front: Some(facet.plane),
+        }
+    }
+
+    /// A point that looks to all sides.
+    pub fn point(at: DVec3) -> Self {
+        Self { corners: smallvec::smallvec![at], edges: SmallVec::new(), front: None }
+    }
+
+    /// The box between opposite corners, looking to all sides.
+    pub fn cuboid(low: DVec3, high: DVec3) -> Self {
+        let corner = |k: usize| {
+            DVec3::select(glam::BVec3::new(k & 1 != 0, k & 2 != 0, k & 4 != 0), high, low)
+        };
+        let edge = |from: u8| {
+            let along = [1, 2, 4].into_iter().filter(move |axis| from & axis == 0);
+            along.map(move |axis| [from, from | axis])
+        };
+        Self {
+            corners: (0..8).map(corner).collect(),
+            edges: (0..8).flat_map(edge).collect(),
+            front: None,
+        }
+    }
+
+    /// Its corners, m.
+    pub fn corners(&self) -> &[DVec3] {
+        &self.corners
+    }
+}
+
 impl Shaft {
-    /// `source` must lie above the eye's horizon and not in one plane with the eye.
-    fn new(eye: DVec3, source: &[DVec3], towards_eye: HalfSpace) -> Self {
-        let mut sides: SmallVec<[HalfSpace; 10]> =
+    /// Everything between two bodies and in front of both; distances up to `tolerance`, m, count as zero.
+    pub fn between(a: &Body, b: &Body, tolerance: f64) -> Self {
+        let corners = || a.corners.iter().chain(&b.corners).copied();
+        let mut sides: SmallVec<[HalfSpace; 16]> = SmallVec::new();
+        sides.extend(a.front.into_iter().chain(b.front));
+        sides.extend(supports(a, b, tolerance));
+        sides.extend(supports(b, a, tolerance));
+        Self {
+            sides,
+            low: corners().fold(DVec3::INFINITY, DVec3::min),
+            high: corners().fold(DVec3::NEG_INFINITY, DVec3::max),
+        }
+    }
+
+    /// Everything between a point and a polygon, which must lie above the eye's horizon and not in one plane with it.
+    pub(super) fn from_eye(eye: DVec3, source: &[DVec3], towards_eye: HalfSpace) -> Self {
+        let mut sides: SmallVec<[HalfSpace; 16]> =
             cone(eye, source, towards_eye.depth(eye)).collect();
         sides.push(towards_eye);
         let corners = || source.iter().copied().chain([eye]);
@@ -37,8 +93,13 @@ impl Shaft {
         }
     }
 
+    /// The half spaces whose intersection it is.
+    pub(super) fn sides(&self) -> &[HalfSpace] {
+        &self.sides
+    }
+
     /// False only if no part of the box is inside.
-    fn meets_box(&self, low: DVec3, high: DVec3, tolerance: f64) -> bool {
+    pub(super) fn meets_box(&self, low: DVec3, high: DVec3, tolerance: f64) -> bool {
         let reaches = |side: &HalfSpace| {
             let furthest = DVec3::select(side.normal.cmpge(DVec3::ZERO), high, low);
             side.depth(furthest) > tolerance
@@ -47,7 +108,7 @@ impl Shaft {
     }
 
     /// False only if no part of the polygon is inside.
-    fn meets(&self, polygon: &[DVec3], tolerance: f64) -> bool {
+    pub(super) fn meets(&self, polygon: &[DVec3], tolerance: f64) -> bool {
         let reaches = |side: &HalfSpace| polygon.iter().any(|&p| side.depth(p) > tolerance);
         self.sides.iter().all(reaches)
     }
@@ -64,117 +125,23 @@ fn cone(eye: DVec3, polygon: &[DVec3], height: f64) -> impl Iterator<Item = Half
     })
 }
 
-impl Occluders {
-    /// The pieces of `source` that `eye` sees.
-    ///
-    /// `source` is convex and planar, counter-clockwise seen from `eye`, which is in front of its plane.
-    /// Exact for any number of convex occluders, but for those in one plane with the eye.
-    /// `None` if so many stand in the way that cutting them out does not pay.
-    pub fn visible_part(&self, eye: DVec3, source: &[DVec3], normal: DVec3) -> Option<Pieces> {
-        self.visible_pieces(eye, source, normal, CROWDED)
-    }
-
-    /// As [`Self::visible_part`], giving up at more than `most` pieces or shadows.
-    pub fn visible_pieces(
-        &self,
-        eye: DVec3,
-        source: &[DVec3],
-        normal: DVec3,
-        most: usize,
-    ) -> Option<Pieces> {
-        let facet = Facet::new(source, normal);
-        let shaft = Shaft::new(eye, source, facet.plane);
-        let mut shade = Shade::new(Seen::new(eye, facet, self.tolerance), most);
-        self.for_each(
-            |low, high| shaft.meets_box(low, high, self.tolerance),
-            |_, occluder| !shaft.meets(&occluder.corners, self.tolerance) || shade.by(occluder),
-        );
-        shade.pieces()
-    }
-
-    /// As [`Self::visible_part`], where no other occluders than those of these numbers are in the way.
-    pub fn visible_behind(
-        &self,
-        among: &[u32],
-        eye: DVec3,
-        source: &[DVec3],
-        normal: DVec3,
-    ) -> Option<Pieces> {
-        let seen = Seen::new(eye, Facet::new(source, normal), self.tolerance);
-        let mut shade = Shade::new(seen, CROWDED);
-        let mut occluders = among.iter().map(|&number| &self.polygons[number as usize]);
-        // `all` stops where nothing is left to see.
-        occluders.all(|occluder| shade.by(occluder));
-        shade.pieces()
-    }
-
-    /// True if something may stand between `eye` and a part of `source`.
-    pub fn may_be_hidden(&self, eye: DVec3, source: &[DVec3], normal: DVec3) -> bool {
-        let shaft = Shaft::new(eye, source, HalfSpace::new(source[0], normal));
-        let mut found = false;
-        self.for_each(
-            |low, high| shaft.meets_box(low, high, self.tolerance),
-            |_, occluder| {
-                let height = occluder.plane.depth(eye);
-                found |= height.abs() > 2.0 * self.tolerance
-                    && shaft.meets(&occluder.corners, self.tolerance);
-                !found
-            },
-        );
-        found
-    }
-}
-
-/// What is seen, while shadows are taken out of it.
-struct Shade {
-    seen: Seen,
-    /// Still to be taken out.
-    shadows: Vec<Shadow>,
-    /// Shadows so far.
-    count: usize,
-    /// More pieces or shadows than this are too many.
-    most: usize,
-}
-
-impl Shade {
-    fn new(seen: Seen, most: usize) -> Self {
-        Self { seen, shadows: Vec::new(), count: 0, most }
-    }
-
-    /// Adds the shadow of an occluder; false if going on is of no use.
-    fn by(&mut self, occluder: &Occluder) -> bool {
-        let shadow = self.seen.shadow(occluder);
-        self.count += usize::from(shadow.is_some());
-        self.shadows.extend(shadow);
-        if self.shadows.len() >= BATCH || self.shadows.last().is_some_and(Shadow::covers_all) {
-            self.subtract();
-        }
-        !self.seen.is_empty() && !self.is_crowded()
-    }
-
-    fn is_crowded(&self) -> bool {
-        self.seen.len() > self.most || self.count > self.most
-    }
-
-    /// Takes the shadows out of what is seen, the largest first: it leaves the others little to cut.
-    fn subtract(&mut self) {
-        let mut order: SmallVec<[(f64, usize); BATCH]> = SmallVec::new();
-        order.extend(self.shadows.iter().enumerate().map(|(k, shadow)| (shadow.area, k)));
-        order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        for (_, k) in order {
-            if self.seen.is_empty() {
-                break;
+/// The half spaces that hold both bodies and have an edge of the first and a corner of the second
+/// on their border.
+fn supports<'a>(a: &'a Body, b: &'a Body, tolerance: f64) -> impl Iterator<Item = HalfSpace> + 'a {
+    let through = move |[from, to]: [u8; 2], corner: DVec3| {
+        let (from, to) = (a.corners[from as usize], a.corners[to as usize]);
+        let plane = HalfSpace::new(from, (to - from).cross(corner - from).try_normalize()?);
+        let (mut low, mut high) = (0.0_f64, 0.0_f64);
+        for &p in a.corners.iter().chain(&b.corners) {
+            low = low.min(plane.depth(p));
+            high = high.max(plane.depth(p));
+            if low < -tolerance && high > tolerance {
+                return None;
             }
-            self.seen.subtract(&self.shadows[k]);
         }
-        self.shadows.clear();
-    }
-
-    /// What is left, unless it is too many pieces.
-    fn pieces(mut self) -> Option<Pieces> {
-        if !self.is_crowded() {
-            self.subtract();
-        }
-        (self.seen.is_empty() || !self.is_crowded()).then(|| self.seen.pieces())
-    }
+        Some(if low >= -tolerance { plane } else { plane.complement() })
+    };
+    a.edges
+        .iter()
+        .flat_map(move |&edge| b.corners.iter().filter_map(move |&corner| through(edge, corner)))
 }

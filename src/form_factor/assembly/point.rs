@@ -51,8 +51,8 @@ fn exact(patch: &Patch, occluders: &Occluders, (point, normal): (DVec3, DVec3)) 
     if above.is_empty() {
         return 0.0;
     }
-    let pieces = occluders.visible_pieces(point, &above, patch.normal, usize::MAX);
-    pieces.iter().flatten().map(|piece| point_to_polygon(point, normal, piece)).sum()
+    let pieces = occluders.visible_pieces(point, &above, patch.normal);
+    pieces.iter().map(|piece| point_to_polygon(point, normal, piece)).sum()
 }
 
 /// The mean of some looks, each turned another way.

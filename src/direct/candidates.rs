@@ -1,0 +1,179 @@
+//! Which lamps can shine on which patches, and what may stand in between: found for regions, from all patches down
+//! to few, each from what holds for the one around it.
+//!
+//! So a lamp behind a wall is dropped once for all behind that wall, and what a patch must look at is a part of what
+//! its surroundings had to.
+
+use glam::DVec3;
+use obvhs::bvh2::Bvh2;
+
+use super::{Lamp, Lamps};
+use crate::mesh::{Mesh, Patch, PatchId};
+use crate::visibility::hierarchy::hierarchy;
+use crate::visibility::{Blockers, Body, Facet, Occluders};
+
+/// Patches longer than this share of the longest are regions of their own.
+const LARGE: f64 = 0.25;
+
+/// Most patches that have their candidates in common.
+const TOGETHER: usize = 16;
+
+/// A lamp that can shine on a region.
+#[derive(Clone, Debug)]
+pub(super) struct Candidate {
+    /// Index into [`Lamps::list`].
+    pub(super) lamp: u32,
+    pub(super) blockers: Blockers,
+}
+
+/// The candidates of all patches.
+#[derive(Debug)]
+pub(super) struct Candidates {
+    regions: Vec<Vec<Candidate>>,
+    /// By patch: its region.
+    of: Vec<u32>,
+}
+
+impl Candidates {
+    pub(super) fn new(lamps: &Lamps, occluders: &Occluders, mesh: &Mesh) -> Self {
+        let sizes = mesh.patches.iter().map(|patch| bounds(&[patch]));
+        let longest = sizes.map(|(low, high)| low.distance(high)).fold(0.0, f64::max);
+        let boxes: Vec<_> = mesh.patches.iter().map(|patch| boxed(bounds(&[patch]))).collect();
+        let tree = hierarchy(&boxes);
+        let finder = Finder { lamps, occluders, mesh, tree: &tree, large: LARGE * longest };
+        let all = (0..lamps.list.len() as u32)
+            .map(|lamp| Candidate { lamp, blockers: occluders.all() })
+            .collect();
+        let found = if mesh.patches.is_empty() { Vec::new() } else { finder.descend(0, all) };
+        let mut of = vec![0; mesh.patches.len()];
+        let mut regions = Vec::with_capacity(found.len());
+        for (patches, candidates) in found {
+            patches.iter().for_each(|patch| of[patch.index()] = regions.len() as u32);
+            regions.push(candidates);
+        }
+        Self { regions, of }
+    }
+
+    /// The lamps that can shine on a patch, in their order.
+    pub(super) fn of(&self, patch: PatchId) -> &[Candidate] {
+        self.regions.get(self.of[patch.index()] as usize).map_or(&[], Vec::as_slice)
+    }
+}
+
+/// Patches that have their candidates in common, and these.
+type Region = (Vec<PatchId>, Vec<Candidate>);
+
+struct Finder<'a> {
+    lamps: &'a Lamps,
+    occluders: &'a Occluders,
+    mesh: &'a Mesh,
+    tree: &'a Bvh2,
+    /// Patches longer than this, m, are regions of their own.
+    large: f64,
+}
+
+impl Finder<'_> {
+    /// The regions under a node of the patches' tree, from the candidates of the node around it.
+    fn descend(&self, node: u32, around: Vec<Candidate>) -> Vec<Region> {
+        let patches = self.patches_under(node);
+        let own = &self.tree.nodes[node as usize];
+        let all: Vec<&Patch> = patches.iter().map(|&patch| &self.mesh[patch]).collect();
+        let (low, high) = bounds(&all);
+        let is_small = low.distance(high) <= 2.0 * self.large && patches.len() <= TOGETHER;
+        if patches.len() > 1 && !own.is_leaf() && !is_small {
+            let here = self.narrowed(&around, &all, &Body::cuboid(low, high));
+            drop(around);
+            let first = own.first_index;
+            let (mut regions, more) = rayon::join(
+                || self.descend(first, here.clone()),
+                || self.descend(first + 1, here.clone()),
+            );
+            regions.extend(more);
+            return regions;
+        }
+        let (large, small): (Vec<PatchId>, Vec<PatchId>) =
+            patches.into_iter().partition(|&patch| self.is_large(patch));
+        let mut regions: Vec<Region> = large
+            .into_iter()
+            .map(|patch| (vec![patch], self.of_patch(&around, &self.mesh[patch])))
+            .collect();
+        if let &[patch] = small.as_slice() {
+            regions.push((vec![patch], self.of_patch(&around, &self.mesh[patch])));
+        } else if !small.is_empty() {
+            let all: Vec<&Patch> = small.iter().map(|&patch| &self.mesh[patch]).collect();
+            let (low, high) = bounds(&all);
+            let candidates = self.narrowed(&around, &all, &Body::cuboid(low, high));
+            regions.push((small, candidates));
+        }
+        regions
+    }
+
+    fn is_large(&self, patch: PatchId) -> bool {
+        let (low, high) = bounds(&[&self.mesh[patch]]);
+        low.distance(high) > self.large
+    }
+
+    /// The candidates of a patch by itself, exact but for what is behind its borders.
+    fn of_patch(&self, around: &[Candidate], patch: &Patch) -> Vec<Candidate> {
+        let receiver = Facet::new(&patch.corners, patch.normal);
+        let reaching = around.iter().filter(|candidate| self.lamp(candidate).may_reach(receiver));
+        self.unhidden(reaching, &Body::polygon(receiver), |lamp| lamp.body_above(receiver))
+    }
+
+    fn narrowed(&self, around: &[Candidate], patches: &[&Patch], body: &Body) -> Vec<Candidate> {
+        let reaching = around.iter().filter(|candidate| {
+            let lamp = self.lamp(candidate);
+            patches.iter().any(|p| lamp.may_reach(Facet::new(&p.corners, p.normal)))
+        });
+        self.unhidden(reaching, body, Lamp::body)
+    }
+
+    /// Candidates, with what may hide them from a receiver; those that one occluder hides are left out.
+    fn unhidden<'c>(
+        &self,
+        candidates: impl Iterator<Item = &'c Candidate>,
+        receiver: &Body,
+        source: impl Fn(&Lamp) -> Option<Body>,
+    ) -> Vec<Candidate> {
+        let narrowed = |candidate: &Candidate| {
+            let lamp = self.lamp(candidate);
+            let blockers = source(lamp).map_or_else(
+                || candidate.blockers.clone(),
+                |source| {
+                    let ignored = |surface| lamp.is_part(surface);
+                    self.occluders.narrowed(&candidate.blockers, (&source, receiver), ignored)
+                },
+            );
+            (blockers != Blockers::Opaque).then_some(Candidate { lamp: candidate.lamp, blockers })
+        };
+        candidates.filter_map(narrowed).collect()
+    }
+
+    fn lamp(&self, candidate: &Candidate) -> &Lamp {
+        &self.lamps.list[candidate.lamp as usize]
+    }
+
+    fn patches_under(&self, node: u32) -> Vec<PatchId> {
+        let (mut open, mut patches) = (vec![node], Vec::new());
+        while let Some(index) = open.pop() {
+            let node = &self.tree.nodes[index as usize];
+            if node.is_leaf() {
+                let slots = node.first_index..node.first_index + node.prim_count;
+                patches.extend(slots.map(|slot| PatchId(self.tree.primitive_indices[slot as usize])));
+            } else {
+                open.extend([node.first_index + 1, node.first_index]);
+            }
+        }
+        patches
+    }
+}
+
+/// Opposite corners of the box around patches, m.
+fn bounds(patches: &[&Patch]) -> (DVec3, DVec3) {
+    let corners = || patches.iter().flat_map(|patch| patch.corners.iter().copied());
+    (corners().fold(DVec3::INFINITY, DVec3::min), corners().fold(DVec3::NEG_INFINITY, DVec3::max))
+}
+
+fn boxed((low, high): (DVec3, DVec3)) -> obvhs::aabb::Aabb {
+    obvhs::aabb::Aabb::new(low.as_vec3a(), high.as_vec3a())
+}

@@ -1,0 +1,287 @@
+//! Direct light on the patches of a mesh: exact where it can be seen, by rays in crowds, as many as what may be hidden
+//! is worth.
+
+use glam::DVec3;
+use rayon::prelude::*;
+use smallvec::SmallVec;
+
+use super::candidates::{Candidate, Candidates};
+use super::lines::{Crowd, Line};
+use super::pool::Pool;
+use super::rims::Rims;
+use super::{Lamp, Lamps, Seen, View, punctual};
+use crate::colour::Rgb;
+use crate::mesh::{Direct, Mesh, PatchId, Vertex};
+use crate::scene::area_vector;
+use crate::visibility::{Blockers, Body, Facet, Occluders};
+
+/// Of more occluders than this, as of curved things, only the edges on their rims make lines, and only long
+/// ones. Of fewer, those that bound nothing cost little, and are found by what they carry.
+const MANY: usize = 256;
+
+/// Where occluders are many, edges shorter than this share of the patch's size are those of facets: the shadow
+/// of what they stand for has no kinks, and no element is cut along so short a line.
+const LEAST_EDGE: f64 = 0.25;
+
+/// Lamps that send more than this many tolerated errors are looked at exactly, if that can be done.
+const EXACT: f64 = 4.0;
+
+/// Lamps that send less than this share of a tolerated error are looked at together.
+const POOLED: f64 = 0.5;
+
+/// Share of a tolerated error that looking by rays may make.
+const SHARE: f64 = 0.25;
+
+/// Light is judged as if at least this share of the mean arrived: nobody sees errors in the dark.
+const DARKEST: f64 = 0.05;
+
+/// Direct light on the patches of a mesh.
+#[derive(Debug)]
+pub struct PatchLight {
+    lamps: Lamps,
+    occluders: Occluders,
+    candidates: Candidates,
+    /// By patch: its unit normal.
+    normals: Vec<DVec3>,
+    rims: Rims,
+    tolerated: Tolerated,
+}
+
+/// Errors of irradiance that do not matter.
+#[derive(Debug, Default)]
+struct Tolerated {
+    /// By patch, as a share of the geometric mean of the irradiance there and that of the whole scene; none if all
+    /// matter.
+    shares: Vec<f32>,
+    /// Mean irradiance of the scene, W/m².
+    mean: f64,
+}
+
+impl PatchLight {
+    /// The light of `lamps` on the patches of `mesh`, whatever their elements: exact, but for crowds of occluders.
+    pub fn new(lamps: Lamps, occluders: Occluders, mesh: &Mesh) -> Self {
+        let candidates = Candidates::new(&lamps, &occluders, mesh);
+        let rims = Rims::new(&occluders);
+        let normals = mesh.patches.iter().map(|patch| patch.normal).collect();
+        Self { lamps, occluders, candidates, normals, rims, tolerated: Tolerated::default() }
+    }
+
+    /// The same with errors up to a quarter of those that are tolerated on each patch: given as shares of the geometric
+    /// mean of the irradiance there and that of all patches.
+    #[must_use]
+    pub fn tolerating(mut self, mesh: &Mesh, shares: Vec<f32>) -> Self {
+        let mean = self.mean_irradiance(mesh);
+        self.tolerated = Tolerated { shares, mean };
+        self
+    }
+
+    /// Where it comes from.
+    pub fn lamps(&self) -> &Lamps {
+        &self.lamps
+    }
+
+    /// What stands in its way.
+    pub fn occluders(&self) -> &Occluders {
+        &self.occluders
+    }
+
+    /// True if nothing can hide a part of any lamp from any place on a patch.
+    pub fn is_clear(&self, patch: PatchId) -> bool {
+        self.candidates.of(patch).iter().all(|candidate| candidate.blockers.is_clear())
+    }
+
+    /// What arrives at a place on a patch.
+    pub fn at(&self, patch: PatchId, place: DVec3) -> Direct {
+        let mut work = Evaluation::new(self, (place, self.normals[patch.index()]));
+        for candidate in self.candidates.of(patch) {
+            work.add(candidate);
+        }
+        work.finish(|here| self.tolerated.error(patch, here))
+    }
+
+    /// What would arrive at a place on a patch if nothing stood between, W/m².
+    pub fn unoccluded(&self, patch: PatchId, place: DVec3) -> Rgb {
+        let receiver = (place, self.normals[patch.index()]);
+        let sent = |candidate: &Candidate| match &self.lamps.list[candidate.lamp as usize] {
+            Lamp::Point(light) => Some(punctual::irradiance(light, receiver.0, receiver.1)?.0),
+            lamp => Some(lamp.view(receiver)?.unoccluded()),
+        };
+        self.candidates.of(patch).iter().filter_map(sent).sum()
+    }
+
+    /// What arrives at vertices, in their order.
+    pub fn at_vertices(&self, vertices: &[&Vertex]) -> Vec<Direct> {
+        vertices.par_iter().map(|vertex| self.at(vertex.patch, vertex.site)).collect()
+    }
+
+    /// What arrives at a place on a patch from some of the polygons, chosen by their numbers, W/m²; `None` where it
+    /// is not known exactly.
+    pub(crate) fn exactly(
+        &self,
+        patch: PatchId,
+        place: DVec3,
+        chosen: impl Fn(u32) -> bool,
+    ) -> Option<Rgb> {
+        let receiver = (place, self.normals[patch.index()]);
+        let candidates = self.candidates.of(patch).iter();
+        let mut light = Rgb::ZERO;
+        for Candidate { lamp, blockers } in candidates.filter(|candidate| chosen(candidate.lamp)) {
+            let Some(view) = self.lamps.list[*lamp as usize].view(receiver) else { continue };
+            let seen = match self.lamps.rows {
+                Some(rows) => view.sampled_evenly(&self.occluders, rows),
+                None => view.exact(&self.occluders, blockers)?,
+            };
+            light += view.light(seen).irradiance;
+        }
+        Some(light)
+    }
+
+    /// Segments in the plane of a patch on which its irradiance by polygons may have a kink or a bend;
+    /// they may reach beyond the patch. The sky makes none: its pieces have no borders that could be seen.
+    pub fn lines(&self, mesh: &Mesh, patch: PatchId) -> Vec<Line> {
+        let corners = &mesh[patch].corners;
+        let receiver = Facet::new(corners, self.normals[patch.index()]);
+        let least = LEAST_EDGE * area_vector(corners).length().sqrt();
+        let mut lines = Vec::new();
+        for Candidate { lamp: number, blockers } in self.candidates.of(patch) {
+            let Lamp::Area(lamp) = &self.lamps.list[*number as usize] else { continue };
+            let Some(above) = lamp.above(receiver).filter(|_| !lamp.profile.is_sky()) else {
+                continue;
+            };
+            let source = Body::polygon(Facet { corners: &above, plane: lamp.front });
+            let bodies = (&source, &Body::polygon(receiver));
+            let between = self.occluders.numbers_in(blockers, bodies, usize::MAX);
+            let crowd: Crowd<'_> = (between.len() > MANY).then_some((&self.rims, least));
+            let among = (&self.occluders, crowd);
+            lines.extend(lamp.lines((*number, receiver), among, between.into_iter()));
+        }
+        lines
+    }
+
+    /// Mean irradiance of the scene, W/m², estimated from some places.
+    fn mean_irradiance(&self, mesh: &Mesh) -> f64 {
+        /// Places, evenly by area.
+        const PLACES: usize = 256;
+        let area: f64 = mesh.patches.iter().map(|patch| patch.area).sum();
+        let step = area / PLACES as f64;
+        let (mut sum, mut chosen) = (0.0, Vec::with_capacity(PLACES));
+        for (index, patch) in mesh.patches.iter().enumerate() {
+            sum += patch.area;
+            while chosen.len() < PLACES && sum > (chosen.len() as f64 + 0.5) * step {
+                chosen.push(PatchId(index as u32));
+            }
+        }
+        let irradiance = |&patch: &PatchId| {
+            let corners = &mesh[patch].corners;
+            let place = corners.iter().sum::<DVec3>() / corners.len() as f64;
+            let mut work = Evaluation::new(self, (place, self.normals[patch.index()]));
+            self.candidates.of(patch).iter().for_each(|candidate| work.add(candidate));
+            // A ray or two for each lamp.
+            strength(work.finish(|here| here.max(f64::MIN_POSITIVE)).irradiance)
+        };
+        let found: Vec<f64> = chosen.par_iter().map(irradiance).collect();
+        found.iter().sum::<f64>() / found.len().max(1) as f64
+    }
+}
+
+impl Tolerated {
+    /// The error of irradiance that does not matter on a patch where at least so much arrives, W/m².
+    fn error(&self, patch: PatchId, here: f64) -> f64 {
+        let share = self.shares.get(patch.index()).map_or(0.0, |&share| f64::from(share));
+        share * (self.mean * here.max(DARKEST * self.mean)).sqrt()
+    }
+}
+
+/// Light at one place, lamp by lamp.
+struct Evaluation<'a> {
+    light: &'a PatchLight,
+    receiver: (DVec3, DVec3),
+    known: Direct,
+    /// Lamps that more may stand before than is listed, or too much to be cut out.
+    open: SmallVec<[(u32, &'a Blockers, View<'a>); 2]>,
+    points: Pool,
+    evaluations: u64,
+    rays: u64,
+}
+
+impl<'a> Evaluation<'a> {
+    fn new(light: &'a PatchLight, receiver: (DVec3, DVec3)) -> Self {
+        let (known, open, points) = (Direct::default(), SmallVec::new(), Pool::default());
+        Self { light, receiver, known, open, points, evaluations: 0, rays: 0 }
+    }
+
+    /// Adds a lamp's light if it can be told at once.
+    fn add(&mut self, Candidate { lamp: number, blockers }: &'a Candidate) {
+        let PatchLight { lamps, occluders, .. } = self.light;
+        let lamp = &lamps.list[*number as usize];
+        if let Lamp::Point(point) = lamp {
+            self.add_point(*number, point, blockers);
+        } else if let Some(view) = lamp.view(self.receiver) {
+            self.evaluations += 1;
+            let seen = match (lamps.rows, blockers) {
+                _ if blockers.is_clear() => Some(view.all()),
+                (Some(rows), _) => Some(view.sampled_evenly(occluders, rows)),
+                (None, Blockers::Few(_)) => view.exact(occluders, blockers),
+                (None, _) => None,
+            };
+            match seen {
+                Some(seen) => self.take(&view, seen),
+                None => self.open.push((*number, blockers, view)),
+            }
+        }
+    }
+
+    fn add_point(&mut self, number: u32, light: &crate::scene::Light, blockers: &Blockers) {
+        let (place, normal) = self.receiver;
+        let Some((sent, source)) = punctual::irradiance(light, place, normal) else { return };
+        self.evaluations += 1;
+        self.known.unoccluded += sent;
+        if blockers.is_clear() {
+            self.known.irradiance += sent;
+        } else {
+            self.points.push(number, sent, source.end(place, &self.light.occluders));
+        }
+    }
+
+    fn take(&mut self, view: &View<'_>, seen: Seen) {
+        self.known = self.known + view.light(seen);
+        self.rays += seen.rays;
+    }
+
+    /// All light, once errors are known that do not matter where so much arrives at least, W/m².
+    fn finish(mut self, tolerated: impl Fn(f64) -> f64) -> Direct {
+        let PatchLight { lamps, occluders, .. } = self.light;
+        let error = tolerated(strength(self.known.irradiance));
+        let open = std::mem::take(&mut self.open);
+        // Errors of several lamps add up as squares do.
+        let share = SHARE * error / (open.len().max(1) as f64).sqrt();
+        let mut pool = std::mem::take(&mut self.points);
+        for (number, blockers, view) in &open {
+            let sent = strength(view.unoccluded());
+            if sent <= POOLED * error {
+                self.known.unoccluded += view.unoccluded();
+                let middle = view.polygon.iter().sum::<DVec3>() / view.polygon.len() as f64;
+                pool.push(*number, view.unoccluded(), middle);
+                continue;
+            }
+            let exact = (sent > EXACT * error).then(|| view.exact(occluders, blockers)).flatten();
+            let seen = exact.unwrap_or_else(|| {
+                view.sampled(occluders, share / sent * view.weight)
+            });
+            self.take(view, seen);
+        }
+        let sees = |lamp: u32, at: DVec3| {
+            let is_own = |surface| lamps.list[lamp as usize].is_part(surface);
+            !occluders.blocks_beyond(self.receiver.0, at, is_own)
+        };
+        let (light, rays) = pool.shine(share, sees);
+        self.known.irradiance += light;
+        lamps.tally.add(self.evaluations, self.rays + rays);
+        self.known
+    }
+}
+
+/// Mean of the channels.
+fn strength(light: Rgb) -> f64 {
+    light.element_sum() / 3.0
+}

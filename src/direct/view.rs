@@ -1,0 +1,109 @@
+//! A lamp as a place sees it, and how much of it that is.
+
+use glam::DVec3;
+
+use super::RadianceProfile;
+use super::sampling::Sampling;
+use crate::colour::Rgb;
+use crate::form_factor::contour::point_to_polygon;
+use crate::mesh::Direct;
+use crate::visibility::{Blockers, Occluders, Polygon};
+
+/// Where light arrives: a place, m, and its unit normal.
+pub(super) type Receiver = (DVec3, DVec3);
+
+/// The part of a lamp above the horizon of a place, as a convex polygon.
+#[derive(Clone, Debug)]
+pub(super) struct View<'a> {
+    pub(super) receiver: Receiver,
+    pub(super) polygon: Polygon,
+    /// Unit normal of the polygon, towards the place.
+    pub(super) normal: DVec3,
+    /// W/m²; of skies, at the zenith.
+    pub(super) exitance: Rgb,
+    pub(super) profile: RadianceProfile,
+    /// The whole polygon's irradiance as a share of the exitance.
+    pub(super) weight: f64,
+    /// Surfaces that are the lamp itself and hide nothing of it.
+    pub(super) own: &'a [u32],
+}
+
+/// How much of a lamp is seen.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seen {
+    /// Irradiance as a share of the exitance.
+    pub(super) weight: f64,
+    /// Rays that it took.
+    pub(super) rays: u64,
+}
+
+impl View<'_> {
+    /// What arrives if nothing stands between, W/m².
+    pub(super) fn unoccluded(&self) -> Rgb {
+        self.exitance * self.weight
+    }
+
+    /// What arrives if so much of it is seen.
+    pub(super) fn light(&self, seen: Seen) -> Direct {
+        let irradiance = self.exitance * seen.weight.min(self.weight);
+        Direct { irradiance, unoccluded: self.unoccluded() }
+    }
+
+    /// All of it.
+    pub(super) fn all(&self) -> Seen {
+        Seen { weight: self.weight, rays: 0 }
+    }
+
+    /// What is not hidden, cut out exactly; `None` if too much stands in between for that.
+    pub(super) fn exact(&self, occluders: &Occluders, blockers: &Blockers) -> Option<Seen> {
+        if blockers.is_clear() {
+            return Some(self.all());
+        }
+        let (eye, source) = (self.receiver.0, (self.polygon.as_slice(), self.normal));
+        let pieces =
+            occluders.visible_among(blockers, eye, source, |surface| self.is_own(surface))?;
+        let weight = pieces.iter().map(|piece| self.profile.weight(self.receiver, piece)).sum();
+        Some(Seen { weight, rays: 0 })
+    }
+
+    /// What is not hidden, by rays: right to within `error` of the exitance, unless that takes too many.
+    pub(super) fn sampled(&self, occluders: &Occluders, error: f64) -> Seen {
+        Sampling::new(self, occluders, error).run()
+    }
+
+    /// What is not hidden, by a ray to each of the cells in so many rows on each of its triangles.
+    pub(super) fn sampled_evenly(&self, occluders: &Occluders, rows: u32) -> Seen {
+        Sampling::evenly(self, occluders, rows).all_cells()
+    }
+
+    /// Whether a place on it is seen.
+    pub(super) fn sees(&self, occluders: &Occluders, at: DVec3) -> bool {
+        !occluders.blocks_beyond(self.receiver.0, at, |surface| self.is_own(surface))
+    }
+
+    /// Irradiance by a small triangle of it, as a share of the exitance.
+    pub(super) fn weight_of(&self, triangle: &[DVec3; 3]) -> f64 {
+        let (place, normal) = self.receiver;
+        let towards = triangle.iter().sum::<DVec3>() / 3.0 - place;
+        self.profile.radiance(towards.normalize_or_zero())
+            * point_to_polygon(place, normal, triangle)
+    }
+
+    /// Weight of a small piece of it over its area, 1/m²: cos cos / (π d²) where it glows evenly.
+    pub(super) fn kernel(&self, at: DVec3) -> f64 {
+        let (place, normal) = self.receiver;
+        let way = at - place;
+        let square = way.length_squared();
+        let cosines = way.dot(normal).max(0.0) * (-way.dot(self.normal)).max(0.0);
+        if square > 0.0 {
+            self.profile.radiance(way / square.sqrt()) * cosines
+                / (std::f64::consts::PI * square * square)
+        } else {
+            0.0
+        }
+    }
+
+    fn is_own(&self, surface: u32) -> bool {
+        self.own.binary_search(&surface).is_ok()
+    }
+}

@@ -1,0 +1,176 @@
+//! What may stand in a shaft, found once and handed down to the shafts inside of it.
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
+use super::between::inside;
+use super::shaft::{Body, Shaft};
+use super::{Occluder, Occluders};
+
+/// More occluders than this are not listed one by one.
+const FEW: usize = 32;
+
+/// Most nodes of the hierarchy under which the occluders of a shaft are, when they are not listed.
+const NODES: usize = 24;
+
+/// What may stand in a shaft.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Blockers {
+    /// All of these occluders, by their numbers, and no others.
+    Few(SmallVec<[u32; 4]>),
+    /// Some of the occluders under these nodes of the hierarchy.
+    Many(Box<[u32]>),
+    /// One occluder that hides each body from the other.
+    Opaque,
+}
+
+impl Blockers {
+    /// True if nothing stands in the shaft.
+    pub fn is_clear(&self) -> bool {
+        matches!(self, Self::Few(list) if list.is_empty())
+    }
+}
+
+impl Occluders {
+    /// All occluders, as what may stand in any shaft.
+    pub fn all(&self) -> Blockers {
+        if self.is_empty() { Blockers::Few(SmallVec::new()) } else { Blockers::Many(Box::new([0])) }
+    }
+
+    /// Of the blockers of a shaft around that between two bodies, those that stand between these.
+    ///
+    /// Occluders of which `ignored` is true, told by their surfaces, do not count.
+    pub fn narrowed(
+        &self,
+        around: &Blockers,
+        (a, b): (&Body, &Body),
+        ignored: impl Fn(u32) -> bool,
+    ) -> Blockers {
+        let shaft = Shaft::between(a, b, self.tolerance);
+        let search = Search { occluders: self, bodies: (a, b), shaft: &shaft, ignored: &ignored };
+        match around {
+            Blockers::Opaque => Blockers::Opaque,
+            Blockers::Few(list) => search.among(list.iter().copied()),
+            Blockers::Many(nodes) => search.under(nodes),
+        }
+    }
+
+    /// Calls `visit` for the blockers of a shaft that may stand in another inside of it, until it returns false.
+    pub(super) fn for_each_in(
+        &self,
+        around: &Blockers,
+        shaft: &Shaft,
+        mut visit: impl FnMut(u32, &Occluder) -> bool,
+    ) {
+        match around {
+            Blockers::Opaque => {}
+            Blockers::Few(list) => {
+                let mut list = list.iter();
+                // `all` stops where `visit` has had enough.
+                list.all(|&number| visit(number, &self.polygons[number as usize]));
+            }
+            Blockers::Many(nodes) => self.for_each_under(
+                nodes,
+                |low, high| shaft.meets_box(low, high, self.tolerance),
+                |number, occluder| {
+                    !shaft.meets(&occluder.corners, self.tolerance) || visit(number, occluder)
+                },
+            ),
+        }
+    }
+
+    /// The numbers of the blockers of a shaft that stand between two bodies inside of it, up to `most` of them.
+    pub fn numbers_in(&self, around: &Blockers, (a, b): (&Body, &Body), most: usize) -> Vec<u32> {
+        let shaft = Shaft::between(a, b, self.tolerance);
+        let mut numbers = Vec::new();
+        self.for_each_in(around, &shaft, |number, occluder| {
+            if inside(occluder, shaft.sides(), self.tolerance).is_some() {
+                numbers.push(number);
+            }
+            numbers.len() < most
+        });
+        numbers
+    }
+}
+
+/// Looks for what stands in a shaft.
+struct Search<'a, F> {
+    occluders: &'a Occluders,
+    bodies: (&'a Body, &'a Body),
+    shaft: &'a Shaft,
+    ignored: &'a F,
+}
+
+impl<F: Fn(u32) -> bool> Search<'_, F> {
+    fn among(&self, numbers: impl Iterator<Item = u32>) -> Blockers {
+        let Self { occluders, shaft, .. } = self;
+        let mut found = SmallVec::new();
+        for number in numbers {
+            let occluder = &occluders.polygons[number as usize];
+            if (self.ignored)(occluder.surface)
+                || inside(occluder, shaft.sides(), occluders.tolerance).is_none()
+            {
+                continue;
+            }
+            if self.hides_all(occluder) {
+                return Blockers::Opaque;
+            }
+            found.push(number);
+        }
+        Blockers::Few(found)
+    }
+
+    /// Opens nodes that reach into the shaft, in the order of the hierarchy, while they are few.
+    fn under(&self, nodes: &[u32]) -> Blockers {
+        let mut open: SmallVec<[u32; 32]> =
+            nodes.iter().copied().filter(|&node| self.reaches(node)).collect();
+        while open.len() < NODES {
+            let Some(at) = self.largest(&open) else { break };
+            let first = self.node(open[at]).first_index;
+            let children = [first, first + 1];
+            let children: SmallVec<[u32; 2]> =
+                children.into_iter().filter(|&child| self.reaches(child)).collect();
+            open.remove(at);
+            open.insert_many(at, children);
+        }
+        let leaves = || open.iter().map(|&node| self.node(node)).filter(|node| node.is_leaf());
+        let numbers =
+            || leaves().flat_map(|node| node.first_index..node.first_index + node.prim_count);
+        if leaves().count() == open.len() {
+            let listed = self.among(numbers());
+            if !matches!(&listed, Blockers::Few(list) if list.len() > FEW) {
+                return listed;
+            }
+        }
+        let is_opaque = |number: u32| {
+            let occluder = &self.occluders.polygons[number as usize];
+            !(self.ignored)(occluder.surface) && self.hides_all(occluder)
+        };
+        if numbers().any(is_opaque) { Blockers::Opaque } else { Blockers::Many(open[..].into()) }
+    }
+
+    /// The inner node with the largest box.
+    fn largest(&self, open: &[u32]) -> Option<usize> {
+        let size = |at: usize| self.node(open[at]).aabb().half_area();
+        let inner = (0..open.len()).filter(|&at| !self.node(open[at]).is_leaf());
+        inner.reduce(|best, at| if size(at) > size(best) { at } else { best })
+    }
+
+    fn node(&self, index: u32) -> &obvhs::bvh2::node::Bvh2Node {
+        &self.occluders.bvh.nodes[index as usize]
+    }
+
+    fn reaches(&self, node: u32) -> bool {
+        let (low, high) = self.occluders.bounds_of(node);
+        self.shaft.meets_box(low, high, self.occluders.tolerance)
+    }
+
+    /// True if an occluder crosses all segments between corners, and so, being convex, all segments.
+    fn hides_all(&self, occluder: &Occluder) -> bool {
+        let (a, b) = self.bodies;
+        let crosses = |p: &DVec3| {
+            b.corners().iter().all(|&q| occluder.crosses(*p, q, self.occluders.tolerance))
+        };
+        a.corners().iter().all(crosses)
+    }
+}
