@@ -159,7 +159,8 @@ impl Finder<'_> {
             let node = &self.tree.nodes[index as usize];
             if node.is_leaf() {
                 let slots = node.first_index..node.first_index + node.prim_count;
-                patches.extend(slots.map(|slot| PatchId(self.tree.primitive_indices[slot as usize])));
+                patches
+                    .extend(slots.map(|slot| PatchId(self.tree.primitive_indices[slot as usize])));
             } else {
                 open.extend([node.first_index + 1, node.first_index]);
             }

@@ -42,8 +42,9 @@ pub(super) fn globes(surfaces: &Surfaces) -> Vec<Globe> {
         let material = &surfaces.materials[surface.material as usize];
         surface.is_emitter() && material.emission_texture.is_none() && surface.rings.len() == 1
     };
-    let glowing: Vec<u32> =
-        (0..surfaces.list.len() as u32).filter(|&s| is_glowing(&surfaces.list[s as usize])).collect();
+    let glowing: Vec<u32> = (0..surfaces.list.len() as u32)
+        .filter(|&s| is_glowing(&surfaces.list[s as usize]))
+        .collect();
     let outline = |&number: &u32| {
         let surface = &surfaces.list[number as usize];
         let corners = surface.rings[0].iter().map(|&p| surface.plane.lift(p));
@@ -159,9 +160,8 @@ impl Globe {
     /// Its silhouette; none from within, or from a place on it.
     fn silhouette(&self, eye: DVec3) -> Option<(Polygon, DVec3)> {
         let is_seen: Vec<bool> = self.fronts.iter().map(|front| front.depth(eye) > 0.0).collect();
-        let borders = self.edges.iter().filter(|[.., l, r]| {
-            is_seen[*l as usize] != is_seen[*r as usize]
-        });
+        let borders =
+            self.edges.iter().filter(|[.., l, r]| is_seen[*l as usize] != is_seen[*r as usize]);
         let ends = borders.flat_map(|[from, to, ..]| [*from, *to]);
         let corners: SmallVec<[DVec3; 64]> =
             ends.map(|corner| self.corners[corner as usize] - eye).collect();

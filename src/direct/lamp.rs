@@ -80,11 +80,6 @@ impl Lamp {
             Self::Point(_) => None,
         }
     }
-
-    /// True if it is a piece of the sky.
-    pub(super) fn is_sky(&self) -> bool {
-        matches!(self, Self::Area(lamp) if lamp.profile.is_sky())
-    }
 }
 
 impl AreaLamp {

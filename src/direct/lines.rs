@@ -13,6 +13,7 @@
 //! [Lischinski, Tampieri and Greenberg 1992]: https://doi.org/10.1109/38.163625
 
 use glam::DVec3;
+use smallvec::SmallVec;
 
 use super::lamp::AreaLamp;
 use super::rims::Rims;
@@ -22,6 +23,9 @@ use crate::visibility::{Facet, HalfSpace, Occluders};
 /// it would be very far away.
 const HIGHEST: f64 = 0.999;
 
+/// Lamps of more corners are round: of what an edge hides of them, only the first and the last corner make lines.
+const ROUND: usize = 6;
+
 /// Of a crowd of occluders, which of their edges count: those on rims, of at least this length, m.
 pub(super) type Crowd<'a> = Option<(&'a Rims, f64)>;
 
@@ -30,65 +34,122 @@ pub(super) type Crowd<'a> = Option<(&'a Rims, f64)>;
 pub struct Line {
     /// Its ends, m.
     pub ends: [DVec3; 2],
+    /// What interpolation over the receiver's width may lose for want of it, at most, W/m² of irradiance.
+    pub bound: f64,
     /// The number of the lamp whose view changes.
     pub(crate) lamp: u32,
 }
 
-impl AreaLamp {
-    /// The lines that occluders make with the part of the lamp, which has this number, above the receiver.
+/// A lamp that shines on a receiver.
+pub(super) struct Shining<'a> {
+    pub(super) number: u32,
+    pub(super) lamp: &'a AreaLamp,
+    /// The part of it above the receiver.
+    pub(super) above: &'a [DVec3],
+    pub(super) receiver: Facet<'a>,
+    /// Most irradiance by it, W/m².
+    pub(super) most: f64,
+    /// Lines that may lose less than this, W/m² of irradiance, are left out.
+    pub(super) least: f64,
+}
+
+impl Shining<'_> {
+    /// The lines that occluders make with the lamp.
     pub(super) fn lines(
         &self,
-        (lamp, receiver): (u32, Facet<'_>),
-        among: (&Occluders, Crowd<'_>),
-        occluders: impl Iterator<Item = u32>,
-    ) -> impl Iterator<Item = Line> {
+        occluders: (&Occluders, Crowd<'_>),
+        numbers: impl Iterator<Item = u32>,
+    ) -> Vec<Line> {
         let mut lines = Vec::new();
-        if let Some(above) = self.above(receiver) {
-            occluders.for_each(|occluder| {
-                self.lines_by(&above, among, (occluder, receiver.plane), &mut lines);
-            });
+        if self.most > self.least {
+            numbers.for_each(|number| self.lines_by(occluders, number, &mut lines));
         }
-        lines.into_iter().map(move |ends| Line { ends, lamp })
+        lines
     }
 
-    /// The lines that one occluder makes with the part of the lamp above the receiver.
+    /// The lines that one occluder makes.
     fn lines_by(
         &self,
-        above: &[DVec3],
         (occluders, crowd): (&Occluders, Crowd<'_>),
-        (occluder, receiver): (u32, HalfSpace),
-        lines: &mut Vec<[DVec3; 2]>,
+        occluder: u32,
+        lines: &mut Vec<Line>,
     ) {
         let whole = occluders.facet(occluder).corners;
-        let between = self.front.clip(&receiver.clip(whole));
+        let receiver = self.receiver.plane;
+        let between = self.lamp.front.clip(&receiver.clip(whole));
         let length = |k: usize| between[k].distance(between[(k + 1) % between.len()]);
         let is_long = |k: usize| crowd.is_none_or(|(_, least)| length(k) >= least);
         // What is cut has edges of its own.
         let rims = crowd.filter(|_| between.as_slice() == whole).map(|(rims, _)| rims);
-        for (k, &from) in between.iter().enumerate() {
-            let to = between[(k + 1) % between.len()];
-            let bounds = |eye: &&DVec3| {
-                is_long(k) && rims.is_none_or(|rims| rims.is_rim(occluder, k, **eye))
-            };
-            let eyes = above.iter().filter(bounds);
-            lines.extend(eyes.filter_map(|&eye| {
-                let seen = below(eye, receiver, [from, to])?;
-                Some(seen.map(|p| project(eye, p, receiver)))
-            }));
-        }
-        for (corner, &pivot) in between.iter().enumerate() {
-            for (k, &from) in above.iter().enumerate() {
-                let edge = [from, above[(k + 1) % above.len()]];
-                let is_below = |eye: &DVec3| receiver.depth(pivot) < HIGHEST * receiver.depth(*eye);
-                // On the receiver itself, a corner is the beginning of lines, not a line.
-                let stands = receiver.depth(pivot) > f64::EPSILON * pivot.length();
-                let n = between.len();
-                let ends = is_long(corner) || is_long((corner + n - 1) % n);
-                let counts = ends && rims.is_none_or(|rims| rims.is_peak(occluder, corner, edge));
-                if stands && counts && edge.iter().all(is_below) {
-                    lines.push(edge.map(|eye| project(eye, pivot, receiver)));
+        for (k, &from) in between.iter().enumerate().filter(|(k, _)| is_long(*k)) {
+            let edge = [from, between[(k + 1) % between.len()]];
+            for eye in self.eyes(edge) {
+                if rims.is_none_or(|rims| rims.is_rim(occluder, k, eye)) {
+                    self.add(below(eye, receiver, edge), eye, lines);
                 }
             }
+        }
+        if self.above.len() > ROUND {
+            return;
+        }
+        let n = between.len();
+        for (corner, &pivot) in between.iter().enumerate() {
+            // On the receiver itself, a corner is the beginning of lines, not a line.
+            let stands = receiver.depth(pivot) > f64::EPSILON * pivot.length();
+            if !stands || !(is_long(corner) || is_long((corner + n - 1) % n)) {
+                continue;
+            }
+            for (k, &from) in self.above.iter().enumerate() {
+                let edge = [from, self.above[(k + 1) % self.above.len()]];
+                let is_below = |eye: &DVec3| receiver.depth(pivot) < HIGHEST * receiver.depth(*eye);
+                let counts = rims.is_none_or(|rims| rims.is_peak(occluder, corner, edge));
+                if counts && edge.iter().all(is_below) {
+                    let ends = edge.map(|eye| project(eye, pivot, receiver));
+                    self.keep(ends, self.penumbra(edge[0], pivot), lines);
+                }
+            }
+        }
+    }
+
+    /// The corners of the lamp from which an edge throws lines.
+    fn eyes(&self, [from, to]: [DVec3; 2]) -> SmallVec<[DVec3; 8]> {
+        if self.above.len() <= ROUND {
+            return self.above.into();
+        }
+        // Those that the edge hides first and last.
+        let across = (to - from).cross(self.above[0] - from);
+        let aside = |eye: &DVec3| (*eye - from).normalize_or_zero().dot(across);
+        let order = |a: &&DVec3, b: &&DVec3| aside(a).total_cmp(&aside(b));
+        let first = self.above.iter().min_by(order);
+        first.into_iter().chain(self.above.iter().max_by(order)).copied().collect()
+    }
+
+    /// Adds what an edge, or the part of it below an eye, throws.
+    fn add(&self, edge: Option<[DVec3; 2]>, eye: DVec3, lines: &mut Vec<Line>) {
+        if let Some(edge) = edge {
+            let ends = edge.map(|p| project(eye, p, self.receiver.plane));
+            self.keep(ends, self.penumbra(eye, edge[0].midpoint(edge[1])), lines);
+        }
+    }
+
+    /// Width of the shadow's border that something throws, m: ℓ dₒᵣ / dₗₒ.
+    fn penumbra(&self, eye: DVec3, occluder: DVec3) -> f64 {
+        let size = self.above[0].distance(self.above[self.above.len() / 2]);
+        let [low, high] = [occluder, eye].map(|p| self.receiver.plane.depth(p));
+        size * low / (high - low).max(f64::MIN_POSITIVE)
+    }
+
+    /// Adds a line if it may matter.
+    ///
+    /// Over a width w, interpolation loses at most U min(1, w/4W) min(1, length/w) of what crosses a border of width
+    /// W, where the lamp sends U.
+    fn keep(&self, ends: [DVec3; 2], penumbra: f64, lines: &mut Vec<Line>) {
+        let corners = self.receiver.corners;
+        let width = corners[0].distance(corners[corners.len() / 2]);
+        let steep = (width / (4.0 * penumbra).max(f64::MIN_POSITIVE)).min(1.0);
+        let bound = self.most * steep * (ends[0].distance(ends[1]) / width).min(1.0);
+        if bound > self.least {
+            lines.push(Line { ends, bound, lamp: self.number });
         }
     }
 }

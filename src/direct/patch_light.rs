@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use smallvec::SmallVec;
 
 use super::candidates::{Candidate, Candidates};
-use super::lines::{Crowd, Line};
+use super::lines::{Crowd, Line, Shining};
 use super::pool::Pool;
 use super::rims::Rims;
 use super::{Lamp, Lamps, Seen, View, punctual};
@@ -30,7 +30,7 @@ const EXACT: f64 = 4.0;
 const POOLED: f64 = 0.5;
 
 /// Share of a tolerated error that looking by rays may make.
-const SHARE: f64 = 0.25;
+const SHARE: f64 = 0.5;
 
 /// Light is judged as if at least this share of the mean arrived: nobody sees errors in the dark.
 const DARKEST: f64 = 0.05;
@@ -66,7 +66,7 @@ impl PatchLight {
         Self { lamps, occluders, candidates, normals, rims, tolerated: Tolerated::default() }
     }
 
-    /// The same with errors up to a quarter of those that are tolerated on each patch: given as shares of the geometric
+    /// The same with errors up to half of those that are tolerated on each patch: given as shares of the geometric
     /// mean of the irradiance there and that of all patches.
     #[must_use]
     pub fn tolerating(mut self, mesh: &Mesh, shares: Vec<f32>) -> Self {
@@ -136,24 +136,28 @@ impl PatchLight {
         Some(light)
     }
 
-    /// Segments in the plane of a patch on which its irradiance by polygons may have a kink or a bend;
-    /// they may reach beyond the patch. The sky makes none: its pieces have no borders that could be seen.
-    pub fn lines(&self, mesh: &Mesh, patch: PatchId) -> Vec<Line> {
+    /// Segments in the plane of a patch on which its irradiance by polygons may have a kink or a bend, as far as
+    /// interpolation may lose more than `least` by them, W/m²; they may reach beyond the patch.
+    ///
+    /// The sky makes none: its pieces have no borders that could be seen. Nor do bodies, which are round.
+    pub fn lines(&self, mesh: &Mesh, patch: PatchId, least: f64) -> Vec<Line> {
         let corners = &mesh[patch].corners;
         let receiver = Facet::new(corners, self.normals[patch.index()]);
-        let least = LEAST_EDGE * area_vector(corners).length().sqrt();
+        let shortest = LEAST_EDGE * area_vector(corners).length().sqrt();
         let mut lines = Vec::new();
         for Candidate { lamp: number, blockers } in self.candidates.of(patch) {
-            let Lamp::Area(lamp) = &self.lamps.list[*number as usize] else { continue };
+            let source = &self.lamps.list[*number as usize];
+            let Lamp::Area(lamp) = source else { continue };
             let Some(above) = lamp.above(receiver).filter(|_| !lamp.profile.is_sky()) else {
                 continue;
             };
-            let source = Body::polygon(Facet { corners: &above, plane: lamp.front });
-            let bodies = (&source, &Body::polygon(receiver));
+            let body = Body::polygon(Facet { corners: &above, plane: lamp.front });
+            let bodies = (&body, &Body::polygon(receiver));
             let between = self.occluders.numbers_in(blockers, bodies, usize::MAX);
-            let crowd: Crowd<'_> = (between.len() > MANY).then_some((&self.rims, least));
-            let among = (&self.occluders, crowd);
-            lines.extend(lamp.lines((*number, receiver), among, between.into_iter()));
+            let crowd: Crowd<'_> = (between.len() > MANY).then_some((&self.rims, shortest));
+            let most = most_by(source, receiver);
+            let shining = Shining { number: *number, lamp, above: &above, receiver, most, least };
+            lines.extend(shining.lines((&self.occluders, crowd), between.into_iter()));
         }
         lines
     }
@@ -265,9 +269,7 @@ impl<'a> Evaluation<'a> {
                 continue;
             }
             let exact = (sent > EXACT * error).then(|| view.exact(occluders, blockers)).flatten();
-            let seen = exact.unwrap_or_else(|| {
-                view.sampled(occluders, share / sent * view.weight)
-            });
+            let seen = exact.unwrap_or_else(|| view.sampled(occluders, share / sent * view.weight));
             self.take(view, seen);
         }
         let sees = |lamp: u32, at: DVec3| {
@@ -279,6 +281,17 @@ impl<'a> Evaluation<'a> {
         lamps.tally.add(self.evaluations, self.rays + rays);
         self.known
     }
+}
+
+/// The most irradiance by a lamp at the corners and in the middle of a receiver, W/m².
+fn most_by(lamp: &Lamp, receiver: Facet<'_>) -> f64 {
+    let corners = receiver.corners;
+    let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
+    let views = corners.iter().chain([&middle]).filter_map(|&at| {
+        // The corners of what is on one plane with the lamp see nothing of it.
+        lamp.view((at.lerp(middle, 1e-3), receiver.plane.normal))
+    });
+    views.map(|view| strength(view.unoccluded())).fold(0.0, f64::max)
 }
 
 /// Mean of the channels.

@@ -1,7 +1,7 @@
 //! How much of a lamp is seen, by rays: more of them along the borders of what is.
 //!
-//! Each cell of the lamp has a ray to its middle. Where rays differ, cells are quartered, and of these, those whose
-//! quarters differ, until what the cells on the border may hide is less than the error allowed.
+//! Each cell of the lamp has a ray to its middle. Where those of neighbours differ, cells are quartered, and of these,
+//! those whose quarters differ, until what the cells on the border may hide is less than the error allowed.
 
 use glam::DVec3;
 
@@ -51,9 +51,9 @@ impl<'a> Sampling<'a> {
     pub(super) fn run(mut self) -> Seen {
         let cells = self.first_cells();
         let whole: f64 = cells.iter().map(|cell| cell.weight).sum();
-        let is_mixed = cells.iter().any(|cell| cell.seen != cells[0].seen);
-        let (mut settled, mut open) =
-            if is_mixed { (0.0, cells) } else { (seen_of(&cells), Vec::new()) };
+        let (mut open, settled): (Vec<Cell>, Vec<Cell>) =
+            cells.iter().partition(|cell| cell.is_on_border(&cells));
+        let mut settled = seen_of(&settled);
         while spread(&open) > self.error && self.rays < MOST_RAYS {
             let mut next = Vec::with_capacity(2 * open.len());
             for cell in &open {
@@ -103,6 +103,19 @@ impl<'a> Sampling<'a> {
         let weight = self.view.weight_of(&middle);
         let own = Cell { corners: middle, weight, seen: cell.seen };
         [self.cell([a, d, f]), self.cell([d, b, e]), self.cell([f, e, c]), own]
+    }
+}
+
+impl Cell {
+    /// True if one of the cells that have an edge in common with it is seen and the other is not.
+    fn is_on_border(&self, cells: &[Self]) -> bool {
+        let near = 1e-6 * self.corners[0].distance(self.corners[1]);
+        let holds = |other: &Self, corner: &DVec3| {
+            other.corners.iter().any(|&p| p.distance_squared(*corner) <= near * near)
+        };
+        let touches =
+            |other: &Self| self.corners.iter().filter(|corner| holds(other, corner)).count() >= 2;
+        cells.iter().any(|other| other.seen != self.seen && touches(other))
     }
 }
 

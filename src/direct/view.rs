@@ -9,6 +9,9 @@ use crate::form_factor::contour::point_to_polygon;
 use crate::mesh::Direct;
 use crate::visibility::{Blockers, Occluders, Polygon};
 
+/// Triangles of a smaller area than this share of the squared distance are taken for points.
+const FAR: f64 = 0.01;
+
 /// Where light arrives: a place, m, and its unit normal.
 pub(super) type Receiver = (DVec3, DVec3);
 
@@ -81,10 +84,16 @@ impl View<'_> {
         !occluders.blocks_beyond(self.receiver.0, at, |surface| self.is_own(surface))
     }
 
-    /// Irradiance by a small triangle of it, as a share of the exitance.
+    /// Irradiance by a triangle of it, as a share of the exitance: the smaller it looks, the more exact.
     pub(super) fn weight_of(&self, triangle: &[DVec3; 3]) -> f64 {
         let (place, normal) = self.receiver;
-        let towards = triangle.iter().sum::<DVec3>() / 3.0 - place;
+        let [a, b, c] = *triangle;
+        let (middle, sides) = ((a + b + c) / 3.0, (b - a).cross(c - a));
+        let towards = middle - place;
+        let area = sides.length() / 2.0;
+        if area < FAR * towards.length_squared() {
+            return area * self.kernel(middle);
+        }
         self.profile.radiance(towards.normalize_or_zero())
             * point_to_polygon(place, normal, triangle)
     }

@@ -3,6 +3,7 @@
 use glam::DVec2;
 use smallvec::{SmallVec, smallvec};
 
+use super::events::{Event, joined};
 use super::{Oracle, strength};
 use crate::direct::{Line, PatchLight};
 use crate::mesh::{Crossing, ElementId, Mesh, Patch, PatchId, Split};
@@ -28,6 +29,9 @@ const HALVINGS: [f64; 3] = [2.0, 4.0, 8.0];
 /// All other cuts end at multiples of this share of an edge, so that those of neighbours meet or keep apart.
 const NOTCHES: f64 = 256.0;
 
+/// Most lines of a patch that are weighed.
+const MOST_LINES: usize = 128;
+
 /// Sine of the least angle between a cut and an edge: 15°.
 const LEAST_SINE: f64 = 0.26;
 
@@ -49,30 +53,30 @@ struct Chord {
     least_part: f64,
 }
 
-/// A segment on which the views of some lamps change.
-struct Event {
-    segment: Segment,
-    lamps: SmallVec<[u32; 2]>,
-}
-
-/// The discontinuity lines of a patch, as far as they carry anything, by direct light.
+/// The discontinuity lines of a patch, as far as they carry more than the oracle allows, by direct light.
 pub fn discontinuities(
     (surfaces, mesh): (&Surfaces, &Mesh),
     patch: PatchId,
     light: &PatchLight,
+    oracle: &Oracle,
 ) -> Vec<Discontinuity> {
-    let Patch { surface, reflectance, corners, area, .. } = &mesh[patch];
+    let Patch { surface, reflectance, corners, area, root, .. } = &mesh[patch];
     if reflectance.max_element() <= 0.0 {
         return Vec::new();
     }
     let plane = &surfaces.list[*surface as usize].plane;
     let outline: Convex = corners.iter().map(|&p| plane.flatten(p)).collect();
     let borders = polygon::borders(&outline);
-    let inside = light.lines(mesh, patch).into_iter().filter_map(|Line { ends, lamp }| {
+    let allowed = oracle.allowed_in_the_dark(mesh, *root);
+    let lines = light.lines(mesh, patch, allowed / strength(*reflectance));
+    let inside = lines.into_iter().filter_map(|Line { ends, lamp, bound }| {
         let segment = ends.map(|p| plane.flatten(p));
         let segment = polygon::clip(segment, &borders, surfaces.tolerance)?;
-        Some(Event { segment, lamps: smallvec![lamp] })
+        let is_long = segment[0].distance(segment[1]) >= 2.0 * oracle.min_element;
+        is_long.then(|| Event { segment, lamps: smallvec![lamp], bound })
     });
+    let mut events = joined(inside, area.sqrt(), surfaces.tolerance);
+    strongest(&mut events);
     let step = STEP * area.sqrt();
     let weighed = |event: Event| {
         // All other light is smooth there, or has a line of its own.
@@ -82,8 +86,17 @@ pub fn discontinuities(
         };
         weigh(event.segment, &borders, step, by)
     };
-    let weighed = joined(inside, surfaces.tolerance).into_iter().filter_map(weighed);
-    weighed.filter(|line| line.kink > 0.0 || line.bend > 0.0).collect()
+    let matters = |line: &Discontinuity| line.error(area.sqrt()) > allowed;
+    events.into_iter().filter_map(weighed).filter(matters).collect()
+}
+
+/// Leaves those events that may carry most, in their order.
+fn strongest(events: &mut Vec<Event>) {
+    if events.len() > MOST_LINES {
+        let mut bounds: Vec<f64> = events.iter().map(|event| event.bound).collect();
+        let (_, &mut least, _) = bounds.select_nth_unstable_by(MOST_LINES, |a, b| b.total_cmp(a));
+        events.retain(|event| event.bound > least);
+    }
 }
 
 /// What a line carries, from light at five places across its middle; nothing is known where these are
@@ -116,38 +129,6 @@ fn weigh(
     })
 }
 
-/// Events with those that overlap on one line joined.
-fn joined(events: impl Iterator<Item = Event>, tolerance: f64) -> Vec<Event> {
-    let mut all: Vec<Event> = Vec::new();
-    for mut new in events {
-        all.retain(|old| match union(new.segment, old.segment, tolerance) {
-            Some(union) => {
-                new.segment = union;
-                new.lamps.extend_from_slice(&old.lamps);
-                false
-            }
-            None => true,
-        });
-        new.lamps.sort_unstable();
-        new.lamps.dedup();
-        all.push(new);
-    }
-    all
-}
-
-/// Two segments as one, if they overlap on one line.
-fn union(a: Segment, b: Segment, tolerance: f64) -> Option<Segment> {
-    let line = polygon::Line::through(a);
-    if b.iter().any(|&p| line.side(p, tolerance) != 0.0) {
-        return None;
-    }
-    let along = (a[1] - a[0]).normalize_or_zero();
-    let [from, to] = b.map(|p| (p - a[0]).dot(along));
-    let ([low, high], length) = ([from.min(to), from.max(to)], a[0].distance(a[1]));
-    let overlap = low <= length + tolerance && high >= -tolerance;
-    overlap.then(|| [a[0] + along * low.min(0.0), a[0] + along * high.max(length)])
-}
-
 /// The cut of an element along the line that carries most, if that is more than the oracle allows.
 pub fn cut(
     (mesh, element): (&Mesh, ElementId),
@@ -164,14 +145,18 @@ pub fn cut(
         if share < LEAST_SHARE || chord.least_part < LEAST_PART {
             return None;
         }
-        // What interpolation across an element this wide makes of the jumps in its middle.
-        let width = area / chord.length;
-        let error = (line.kink * width / 4.0).max(line.bend * width * width / 16.0);
-        Some((error * share, chord.ends))
+        Some((line.error(area / chord.length) * share, chord.ends))
     };
     let most = lines.iter().filter_map(carried).max_by(|(a, _), (b, _)| a.total_cmp(b));
     most.filter(|(error, _)| *error > oracle.allowed_at(mesh, element))
         .map(|(_, ends)| Split::Along(ends))
+}
+
+impl Discontinuity {
+    /// What interpolation across an element of this width, m, makes of the jumps in its middle, W/m².
+    fn error(&self, width: f64) -> f64 {
+        (self.kink * width / 4.0).max(self.bend * width * width / 16.0)
+    }
 }
 
 impl Chord {

@@ -4,12 +4,13 @@
 //! the centre, and, for direct light, at probes in between, so that a small shadow is not
 //! overlooked.
 
+mod events;
 mod lines;
 
 use smallvec::SmallVec;
 
 use crate::colour::Rgb;
-use crate::mesh::{Element, ElementId, Mesh, Middle, Reason, Split, Vertex, VertexId};
+use crate::mesh::{Element, ElementId, Mesh, Middle, Patch, Reason, Split, Vertex, VertexId};
 use crate::settings::Settings;
 
 /// A halved quadrilateral may become this much longer than wide; its triangles then keep 11° and more.
@@ -38,6 +39,9 @@ const DIRECT_SHARE: f64 = 1.0 / 3.0;
 
 /// Light from other surfaces is held to this share: it is smooth, and costs much.
 const REFLECTED_SHARE: f64 = 1.5;
+
+/// Light is judged as if at least this share of the mean were there: errors in the dark count for little.
+const DARKEST: f64 = 0.05;
 
 pub use lines::{Discontinuity, cut, discontinuities};
 
@@ -173,10 +177,13 @@ impl Oracle {
     /// here and in the whole scene.
     fn allowed(&self, mesh: &Mesh, element: ElementId, corners: &[Rgb]) -> f64 {
         let here = corners.iter().map(|&c| strength(c)).sum::<f64>() / corners.len() as f64;
-        let around = (self.level * here.max(0.05 * self.level)).sqrt();
-        let size = mesh[element].area.sqrt();
-        let [least, most] = SIZE_RANGE;
-        self.tolerance * around * (self.plain_size / size).clamp(least, most)
+        let around = (self.level * here.max(DARKEST * self.level)).sqrt();
+        self.tolerance * around * by_size(self.plain_size, mesh[element].area)
+    }
+
+    /// The least error that an element is allowed, however little light there is, W/m².
+    fn allowed_in_the_dark(&self, mesh: &Mesh, element: ElementId) -> f64 {
+        self.allowed(mesh, element, &[Rgb::ZERO])
     }
 
     /// Why an element is divided.
@@ -198,6 +205,23 @@ impl Oracle {
         let touches = mesh[element].corners.iter().any(|&v| mesh[v].on_contact);
         if touches { Reason::Contact } else { Reason::Gradient }
     }
+}
+
+/// Factor on the error that an element of this area, m², is allowed.
+fn by_size(plain_size: f64, area: f64) -> f64 {
+    let [least, most] = SIZE_RANGE;
+    (plain_size / area.sqrt()).clamp(least, most)
+}
+
+/// The errors of direct light that do not matter on each patch of a scene of this extent, m: of irradiance, as shares of
+/// the geometric mean of that there and that of the whole scene.
+pub fn tolerated_direct(settings: &Settings, extent: f64, mesh: &Mesh) -> Vec<f32> {
+    let share = |patch: &Patch| {
+        // Where light varies, elements are not left larger than that.
+        let size = by_size(PLAIN_SIZE * extent, patch.area).max(1.0);
+        (settings.tolerance * DIRECT_SHARE * size) as f32
+    };
+    mesh.patches.iter().map(share).collect()
 }
 
 /// Estimate of the mean radiosity of the scene's surfaces, W/m², from the direct light at patch corners.

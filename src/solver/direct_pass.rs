@@ -162,7 +162,7 @@ pub(super) fn refine(
     let mut candidates: Vec<ElementId> =
         mesh.leaves().filter(|&e| may_be_divided(mesh, e)).collect();
     let lines = if settings.discontinuity_lines && settings.max_level > 0 {
-        discontinuities(world, mesh, &candidates)
+        discontinuities(world, mesh, &oracle, &candidates)
     } else {
         vec![Vec::new(); mesh.patches.len()]
     };
@@ -198,6 +198,7 @@ pub(super) fn refine(
 fn discontinuities(
     world: World<'_>,
     mesh: &Mesh,
+    oracle: &Oracle,
     candidates: &[ElementId],
 ) -> Vec<Vec<Discontinuity>> {
     let mut is_wanted = vec![false; mesh.patches.len()];
@@ -206,7 +207,8 @@ fn discontinuities(
     }
     let lines = |(patch, is_wanted): (usize, bool)| {
         let patch = PatchId(patch as u32);
-        is_wanted.then(|| refine::discontinuities((world.surfaces, mesh), patch, world.light))
+        is_wanted
+            .then(|| refine::discontinuities((world.surfaces, mesh), patch, world.light, oracle))
     };
     let lines = is_wanted.into_par_iter().enumerate().map(lines);
     lines.map(Option::unwrap_or_default).collect()
@@ -246,8 +248,10 @@ fn judge(
         let Direct { irradiance, .. } = world.light.at(mesh[element].patch, place);
         strength(reflectance * (irradiance - expected))
     };
-    let probes = probes(&corners).into_iter().map(probe_error).fold(0.0, f64::max);
-    oracle.judge((mesh, element), middle, light, probes)
+    // Shadows between the middles of small elements are smaller than any that will be shown.
+    let probes = if oracle.is_small(mesh, element) { Vec::new() } else { probes(&corners) };
+    let error = probes.into_iter().map(probe_error).fold(0.0, f64::max);
+    oracle.judge((mesh, element), middle, light, error)
 }
 
 /// Places inside a quadrilateral or triangle off its midlines, with interpolated values.

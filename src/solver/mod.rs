@@ -33,7 +33,7 @@ use crate::colour::Rgb;
 use crate::direct::{Lamps, PatchLight};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
-use crate::refine::{Oracle, mean_radiosity};
+use crate::refine::{Oracle, mean_radiosity, tolerated_direct};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
@@ -197,7 +197,8 @@ fn lamps_on(surfaces: &Surfaces, settings: &Settings, mesh: &Mesh) -> Result<Pat
     if lamps.is_empty() {
         return Err(Error::Scene(DARK.to_owned()));
     }
-    Ok(PatchLight::new(lamps, Occluders::new(surfaces), mesh))
+    let tolerated = tolerated_direct(settings, surfaces.extent, mesh);
+    Ok(PatchLight::new(lamps, Occluders::new(surfaces), mesh).tolerating(mesh, tolerated))
 }
 
 /// Whether light dies away: loading a file sees to it, a scene made in code may not.
