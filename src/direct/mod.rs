@@ -23,7 +23,7 @@ use crate::mesh::{Direct, Mesh};
 use crate::scene::{Light, NamedLight};
 use crate::surface::Surfaces;
 use crate::surface::cut::{Cuts, convex_pieces};
-use crate::visibility::Occluders;
+use crate::visibility::{CROWDED, Occluders};
 
 pub use lines::Line;
 pub use patch_light::PatchLight;
@@ -148,7 +148,7 @@ impl Lamps {
                 Lamp::Point(point) => punctual::shine(point, occluders, (place, normal)),
                 lamp => lamp.view((place, normal)).map(|view| {
                     let seen = self.rows.map_or_else(
-                        || view.exact(occluders, &all),
+                        || view.exact(occluders, &all, CROWDED),
                         |rows| Some(view.sampled_evenly(occluders, rows)),
                     );
                     let seen = seen.unwrap_or_else(|| view.sampled(occluders, 0.0));

@@ -13,7 +13,7 @@ use super::{Lamp, Lamps, Seen, View, punctual};
 use crate::colour::Rgb;
 use crate::mesh::{Direct, Mesh, PatchId, Vertex};
 use crate::scene::area_vector;
-use crate::visibility::{Blockers, Body, Facet, Occluders};
+use crate::visibility::{Blockers, Body, CROWDED, Facet, Occluders};
 
 /// Of more occluders than this, as of curved things, only the edges on their rims make lines, and only long
 /// ones. Of fewer, those that bound nothing cost little, and are found by what they carry.
@@ -25,6 +25,9 @@ const LEAST_EDGE: f64 = 0.25;
 
 /// Lamps that send more than this many tolerated errors are looked at exactly, if that can be done.
 const EXACT: f64 = 4.0;
+
+/// Most shadows that are cut out of a lamp for each tolerated error that it sends.
+const SHADOWS: f64 = 2.0;
 
 /// Lamps that send less than this share of a tolerated error are looked at together.
 const POOLED: f64 = 0.5;
@@ -129,7 +132,7 @@ impl PatchLight {
             let Some(view) = self.lamps.list[*lamp as usize].view(receiver) else { continue };
             let seen = match self.lamps.rows {
                 Some(rows) => view.sampled_evenly(&self.occluders, rows),
-                None => view.exact(&self.occluders, blockers)?,
+                None => view.exact(&self.occluders, blockers, CROWDED)?,
             };
             light += view.light(seen).irradiance;
         }
@@ -225,7 +228,7 @@ impl<'a> Evaluation<'a> {
             let seen = match (lamps.rows, blockers) {
                 _ if blockers.is_clear() => Some(view.all()),
                 (Some(rows), _) => Some(view.sampled_evenly(occluders, rows)),
-                (None, Blockers::Few(_)) => view.exact(occluders, blockers),
+                (None, Blockers::Few(_)) => view.exact(occluders, blockers, CROWDED),
                 (None, _) => None,
             };
             match seen {
@@ -268,7 +271,10 @@ impl<'a> Evaluation<'a> {
                 pool.push(*number, view.unoccluded(), middle);
                 continue;
             }
-            let exact = (sent > EXACT * error).then(|| view.exact(occluders, blockers)).flatten();
+            // The more a lamp sends, the more may be cut out of it before rays would do as well.
+            let most = (SHADOWS * sent / error.max(f64::MIN_POSITIVE)) as usize;
+            let exact = (sent > EXACT * error).then(|| view.exact(occluders, blockers, most));
+            let exact = exact.flatten();
             let seen = exact.unwrap_or_else(|| view.sampled(occluders, share / sent * view.weight));
             self.take(view, seen);
         }

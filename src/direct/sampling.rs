@@ -51,8 +51,9 @@ impl<'a> Sampling<'a> {
     pub(super) fn run(mut self) -> Seen {
         let cells = self.first_cells();
         let whole: f64 = cells.iter().map(|cell| cell.weight).sum();
-        let (mut open, settled): (Vec<Cell>, Vec<Cell>) =
-            cells.iter().partition(|cell| cell.is_on_border(&cells));
+        let is_mixed = cells.iter().any(|cell| cell.seen != cells[0].seen);
+        let is_open = |cell: &&Cell| is_mixed && cell.is_on_border(&cells);
+        let (mut open, settled): (Vec<Cell>, Vec<Cell>) = cells.iter().partition(is_open);
         let mut settled = seen_of(&settled);
         while spread(&open) > self.error && self.rays < MOST_RAYS {
             let mut next = Vec::with_capacity(2 * open.len());

@@ -7,7 +7,7 @@ use super::sampling::Sampling;
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
 use crate::mesh::Direct;
-use crate::visibility::{Blockers, Occluders, Polygon};
+use crate::visibility::{Blockers, Facet, Occluders, Polygon};
 
 /// Triangles of a smaller area than this share of the squared distance are taken for points.
 const FAR: f64 = 0.01;
@@ -57,14 +57,19 @@ impl View<'_> {
         Seen { weight: self.weight, rays: 0 }
     }
 
-    /// What is not hidden, cut out exactly; `None` if too much stands in between for that.
-    pub(super) fn exact(&self, occluders: &Occluders, blockers: &Blockers) -> Option<Seen> {
+    /// What is not hidden, cut out exactly; `None` if more than `most` stand in between, or too many for that.
+    pub(super) fn exact(
+        &self,
+        occluders: &Occluders,
+        blockers: &Blockers,
+        most: usize,
+    ) -> Option<Seen> {
         if blockers.is_clear() {
             return Some(self.all());
         }
-        let (eye, source) = (self.receiver.0, (self.polygon.as_slice(), self.normal));
-        let pieces =
-            occluders.visible_among(blockers, eye, source, |surface| self.is_own(surface))?;
+        let source = Facet::new(&self.polygon, self.normal);
+        let is_own = |surface| self.is_own(surface);
+        let pieces = occluders.visible_among((blockers, most), self.receiver.0, source, is_own)?;
         let weight = pieces.iter().map(|piece| self.profile.weight(self.receiver, piece)).sum();
         Some(Seen { weight, rays: 0 })
     }

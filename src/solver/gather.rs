@@ -23,9 +23,10 @@ use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
 
-/// Cells along the edge of the hemicubes over vertices: they measure visibility only, and vertices
-/// are many.
-const RESOLUTION: usize = 32;
+/// Cells along the edge of the hemicubes over vertices, and the tolerances from which on they will do: the first that
+/// does. They measure visibility only, and vertices are many; their error, 0.3 % at 32 cells, falls with the power 1.3
+/// of their number.
+const RESOLUTIONS: [(usize, f64); 3] = [(16, 0.061), (24, 0.034), (32, 0.0)];
 
 /// Deepest division of a leaf seen from close by.
 const DEEPEST: u32 = 6;
@@ -74,7 +75,9 @@ impl<'a> Gatherer<'a> {
         sources: Sources,
         fine: f64,
     ) -> Self {
-        let delta = DeltaFactors::new(RESOLUTION);
+        let will_do = |(_, tolerance): &&(usize, f64)| settings.tolerance >= *tolerance;
+        let resolution = RESOLUTIONS.iter().find(will_do).map_or(32, |(cells, _)| *cells);
+        let delta = DeltaFactors::new(resolution);
         Self {
             surfaces,
             occluders,

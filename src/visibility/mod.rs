@@ -27,7 +27,7 @@ pub use first::Met;
 use hierarchy::hierarchy;
 pub use patches::PatchHierarchy;
 pub use shaft::{Body, Shaft};
-pub use visible::Pieces;
+pub use visible::{CROWDED, Pieces};
 
 /// All that blocks light: convex pieces of the surfaces, from both sides.
 #[derive(Clone)]

@@ -10,6 +10,20 @@ use crate::surface::polygon::area;
 /// A convex polygon in the source's plane, m.
 type Flat = SmallVec<[DVec2; 8]>;
 
+/// A rectangle along the axes of the source's plane, m.
+#[derive(Clone, Copy)]
+struct Bounds {
+    low: DVec2,
+    high: DVec2,
+}
+
+/// A piece of the source, and the rectangle around it.
+#[derive(Clone)]
+struct Piece {
+    outline: Flat,
+    bounds: Bounds,
+}
+
 /// Share of the tolerance by which a shadow must reach into a piece: above rounding alone.
 const ROUNDING: f64 = 1e-3;
 
@@ -23,7 +37,7 @@ pub(super) struct Seen {
     /// Orthonormal axes of its plane.
     axes: [DVec3; 2],
     whole: Flat,
-    pieces: SmallVec<[Flat; 4]>,
+    pieces: SmallVec<[Piece; 4]>,
     tolerance: f64,
 }
 
@@ -39,8 +53,27 @@ struct Side {
 /// A shadow: what is on the inner sides of all its borders.
 pub(super) struct Shadow {
     sides: SmallVec<[Side; 4]>,
+    /// Around its part on the source.
+    bounds: Bounds,
     /// Area of its part on the source, m².
     pub(super) area: f64,
+}
+
+impl Bounds {
+    fn of(outline: &[DVec2]) -> Self {
+        let low = outline.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+        Self { low, high: outline.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max) }
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        self.low.cmple(other.high).all() && self.high.cmpge(other.low).all()
+    }
+}
+
+impl From<Flat> for Piece {
+    fn from(outline: Flat) -> Self {
+        Self { bounds: Bounds::of(&outline), outline }
+    }
 }
 
 impl Seen {
@@ -54,14 +87,14 @@ impl Seen {
         let flat = |&p: &DVec3| DVec2::from(axes.map(|axis| (p - origin).dot(axis)));
         let whole: Flat = source.corners.iter().map(flat).collect();
         let mut pieces = SmallVec::new();
-        pieces.push(whole.clone());
+        pieces.push(whole.clone().into());
         Self { eye, plane: source.plane, origin, axes, whole, pieces, tolerance }
     }
 
     /// The pieces left; they do not overlap.
     pub(super) fn pieces(&self) -> Pieces {
         let lift = |p: &DVec2| self.origin + self.axes[0] * p.x + self.axes[1] * p.y;
-        self.pieces.iter().map(|piece| piece.iter().map(lift).collect()).collect()
+        self.pieces.iter().map(|piece| piece.outline.iter().map(lift).collect()).collect()
     }
 
     /// Number of pieces left.
@@ -100,7 +133,11 @@ impl Seen {
                 }
             }
         }
-        (front.len() >= 3).then(|| Shadow { sides, area: area(&on_source).abs() })
+        (front.len() >= 3).then(|| Shadow {
+            sides,
+            bounds: Bounds::of(&on_source),
+            area: area(&on_source).abs(),
+        })
     }
 
     /// The half space of the eye and an edge, in the source's plane; an edge that points at the eye
@@ -115,8 +152,9 @@ impl Seen {
     pub(super) fn subtract(&mut self, shadow: &Shadow) {
         let least = ROUNDING * self.tolerance;
         for k in (0..self.pieces.len()).rev() {
-            let piece = &self.pieces[k];
-            if !shadow.sides.iter().any(|side| matches!(side.cuts(piece, least), Cut::Outside)) {
+            let Piece { outline, bounds } = &self.pieces[k];
+            let is_outside = |side: &Side| matches!(side.cuts(outline, least), Cut::Outside);
+            if bounds.meets(&shadow.bounds) && !shadow.sides.iter().any(is_outside) {
                 self.cut(k, &shadow.sides, least);
             }
         }
@@ -125,7 +163,7 @@ impl Seen {
     /// Replaces a piece by its parts outside of at least one of the sides.
     fn cut(&mut self, piece: usize, sides: &[Side], least: f64) {
         let count = self.pieces.len();
-        let (mut rest, mut spare) = (self.pieces[piece].clone(), Flat::new());
+        let (mut rest, mut spare) = (self.pieces[piece].outline.clone(), Flat::new());
         for side in sides {
             match side.cuts(&rest, least) {
                 // No part is in the shadow after all.
@@ -134,7 +172,7 @@ impl Seen {
                 Cut::Both => {
                     let mut outside = Flat::new();
                     side.clip(&rest, -1.0, &mut outside);
-                    self.pieces.push(outside);
+                    self.pieces.push(outside.into());
                     side.clip(&rest, 1.0, &mut spare);
                     std::mem::swap(&mut rest, &mut spare);
                 }

@@ -12,7 +12,7 @@ use super::{Blockers, Occluder, Occluders};
 pub type Pieces = SmallVec<[Polygon; 2]>;
 
 /// Beyond this many pieces, or shadows, a shaft is crowded, and cutting on costs more than sampling.
-const CROWDED: usize = 96;
+pub const CROWDED: usize = 96;
 
 /// Shadows are sorted by size in lots of this many; so in a crowd, none is cut before it is known for one.
 const BATCH: usize = CROWDED + 1;
@@ -24,26 +24,25 @@ impl Occluders {
     /// Exact for any number of convex occluders, but for those in one plane with the eye.
     /// `None` if so many stand in the way that cutting them out does not pay.
     pub fn visible_part(&self, eye: DVec3, source: &[DVec3], normal: DVec3) -> Option<Pieces> {
-        self.visible_among(&self.all(), eye, (source, normal), |_| false)
+        self.visible_among((&self.all(), CROWDED), eye, Facet::new(source, normal), |_| false)
     }
 
     /// As [`Self::visible_part`], with nothing in the way but `blockers`, and of these not those whose surfaces
-    /// are to be `ignored`.
+    /// are to be `ignored`; `None` at more than `most` pieces or shadows.
     pub fn visible_among(
         &self,
-        blockers: &Blockers,
+        (blockers, most): (&Blockers, usize),
         eye: DVec3,
-        (source, normal): (&[DVec3], DVec3),
+        facet: Facet<'_>,
         ignored: impl Fn(u32) -> bool,
     ) -> Option<Pieces> {
-        let facet = Facet::new(source, normal);
-        let mut shade = Shade::new(Seen::new(eye, facet, self.tolerance), CROWDED);
+        let mut shade = Shade::new(Seen::new(eye, facet, self.tolerance), most.min(CROWDED));
         if let Blockers::Few(list) = blockers {
             // So few that looking for those in the shaft takes longer than cutting.
             let mut occluders = list.iter().map(|&number| &self.polygons[number as usize]);
             occluders.all(|occluder| ignored(occluder.surface) || shade.by(occluder));
         } else {
-            let shaft = Shaft::from_eye(eye, source, facet.plane);
+            let shaft = Shaft::from_eye(eye, facet.corners, facet.plane);
             self.for_each_in(blockers, &shaft, |_, occluder| {
                 ignored(occluder.surface) || shade.by(occluder)
             });

@@ -58,13 +58,13 @@ pub struct Hemicube<'a> {
     runs: Vec<Run>,
     /// Set if this look is by rays.
     rays: Option<&'a PatchHierarchy>,
-    /// By patch, right for those drawn in this look.
+    /// By patch; of those not drawn in this look, nothing.
     prints: Vec<Print>,
     drawn: Vec<u32>,
 }
 
 /// What a patch that was drawn has come to.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 struct Print {
     /// Sum of the delta factors of the cells it covers.
     covered: f32,
@@ -72,6 +72,10 @@ struct Print {
     kept: f32,
     /// The last of its runs, or [`NOTHING`].
     last: u32,
+}
+
+impl Print {
+    const NONE: Self = Self { covered: 0.0, kept: 0.0, last: NOTHING };
 }
 
 /// A patch that a point sees, or might see if its view were clearer.
@@ -116,7 +120,7 @@ impl<'a> Hemicube<'a> {
             cells: Cells::new(delta.resolution()),
             runs: Vec::new(),
             rays: None,
-            prints: vec![Print::default(); targets.len()],
+            prints: vec![Print::NONE; targets.len()],
             drawn: Vec::new(),
         }
     }
@@ -212,10 +216,11 @@ impl<'a> Hemicube<'a> {
     #[inline(always)]
     fn fill<S: Simd>(&mut self, simd: S) {
         self.cells.clear();
-        self.drawn.clear();
+        for patch in self.drawn.drain(..) {
+            self.prints[patch as usize] = Print::NONE;
+        }
         if let Some(hierarchy) = self.rays {
             // What is seen is known from the runs alone.
-            self.prints.fill(Print { last: NOTHING, ..Print::default() });
             return packets::fill(hierarchy, (self.eye, &self.frame), &mut self.cells);
         }
         let Self { targets, delta, eye, frame, .. } = *self;
