@@ -116,41 +116,15 @@ impl Finder<'_> {
     /// The candidates of a patch by itself, exact but for what is behind its borders.
     fn of_patch(&self, around: &[Candidate], patch: &Patch) -> Vec<Candidate> {
         let receiver = Facet::new(&patch.corners, patch.normal);
-        let reaching = around.iter().filter(|candidate| self.lamp(candidate).may_reach(receiver));
-        self.unhidden(reaching, &Body::polygon(receiver), |lamp| lamp.body_above(receiver))
+        of_polygon((self.lamps, self.occluders), around, receiver)
     }
 
     fn narrowed(&self, around: &[Candidate], patches: &[&Patch], body: &Body) -> Vec<Candidate> {
         let reaching = around.iter().filter(|candidate| {
-            let lamp = self.lamp(candidate);
+            let lamp = &self.lamps.list[candidate.lamp as usize];
             patches.iter().any(|p| lamp.may_reach(Facet::new(&p.corners, p.normal)))
         });
-        self.unhidden(reaching, body, Lamp::body)
-    }
-
-    /// Candidates, with what may hide them from a receiver; those that one occluder hides are left out.
-    fn unhidden<'c>(
-        &self,
-        candidates: impl Iterator<Item = &'c Candidate>,
-        receiver: &Body,
-        source: impl Fn(&Lamp) -> Option<Body>,
-    ) -> Vec<Candidate> {
-        let narrowed = |candidate: &Candidate| {
-            let lamp = self.lamp(candidate);
-            let blockers = source(lamp).map_or_else(
-                || candidate.blockers.clone(),
-                |source| {
-                    let ignored = |surface| lamp.is_part(surface);
-                    self.occluders.narrowed(&candidate.blockers, (&source, receiver), ignored)
-                },
-            );
-            (blockers != Blockers::Opaque).then_some(Candidate { lamp: candidate.lamp, blockers })
-        };
-        candidates.filter_map(narrowed).collect()
-    }
-
-    fn lamp(&self, candidate: &Candidate) -> &Lamp {
-        &self.lamps.list[candidate.lamp as usize]
+        unhidden((self.lamps, self.occluders), reaching, body, Lamp::body)
     }
 
     fn patches_under(&self, node: u32) -> Vec<PatchId> {
@@ -167,6 +141,38 @@ impl Finder<'_> {
         }
         patches
     }
+}
+
+/// Of the candidates of what is around a polygon, those of the polygon itself.
+pub(super) fn of_polygon(
+    (lamps, occluders): (&Lamps, &Occluders),
+    around: &[Candidate],
+    receiver: Facet<'_>,
+) -> Vec<Candidate> {
+    let reaches = |candidate: &&Candidate| lamps.list[candidate.lamp as usize].may_reach(receiver);
+    let (reaching, body) = (around.iter().filter(reaches), Body::polygon(receiver));
+    unhidden((lamps, occluders), reaching, &body, |lamp| lamp.body_above(receiver))
+}
+
+/// Candidates, with what may hide them from a receiver; those that one occluder hides are left out.
+fn unhidden<'c>(
+    (lamps, occluders): (&Lamps, &Occluders),
+    candidates: impl Iterator<Item = &'c Candidate>,
+    receiver: &Body,
+    source: impl Fn(&Lamp) -> Option<Body>,
+) -> Vec<Candidate> {
+    let narrowed = |Candidate { lamp: number, blockers }: &Candidate| {
+        let lamp = &lamps.list[*number as usize];
+        let blockers = match source(lamp) {
+            Some(source) if !blockers.is_clear() => {
+                let ignored = |surface| lamp.is_part(surface);
+                occluders.narrowed(blockers, (&source, receiver), ignored)
+            }
+            _ => blockers.clone(),
+        };
+        (blockers != Blockers::Opaque).then_some(Candidate { lamp: *number, blockers })
+    };
+    candidates.filter_map(narrowed).collect()
 }
 
 /// Opposite corners of the box around patches, m.

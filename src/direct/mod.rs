@@ -26,7 +26,7 @@ use crate::surface::cut::{Cuts, convex_pieces};
 use crate::visibility::{CROWDED, Occluders};
 
 pub use lines::Line;
-pub use patch_light::PatchLight;
+pub use patch_light::{Outlook, PatchLight};
 
 use lamp::{AreaLamp, Lamp};
 use tally::Tally;

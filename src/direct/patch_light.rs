@@ -1,11 +1,13 @@
 //! Direct light on the patches of a mesh: exact where it can be seen, by rays in crowds, as many as what may be hidden
 //! is worth.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
-use super::candidates::{Candidate, Candidates};
+use super::candidates::{self, Candidate, Candidates};
 use super::lines::{Crowd, Line, Shining};
 use super::pool::Pool;
 use super::rims::Rims;
@@ -32,6 +34,9 @@ const SHADOWS: f64 = 2.0;
 /// Lamps that send less than this share of a tolerated error are looked at together.
 const POOLED: f64 = 0.5;
 
+/// So many occluders before a lamp are cut out of it sooner than they are looked through.
+const LISTED: usize = 4;
+
 /// Share of a tolerated error that looking by rays may make.
 const SHARE: f64 = 0.5;
 
@@ -48,6 +53,14 @@ pub struct PatchLight {
     normals: Vec<DVec3>,
     rims: Rims,
     tolerated: Tolerated,
+}
+
+/// The lamps that can shine on a patch, or a part of one, and what stands in between.
+#[derive(Debug)]
+pub struct Outlook<'a> {
+    light: &'a PatchLight,
+    patch: PatchId,
+    candidates: Cow<'a, [Candidate]>,
 }
 
 /// Errors of irradiance that do not matter.
@@ -88,18 +101,26 @@ impl PatchLight {
         &self.occluders
     }
 
-    /// True if nothing can hide a part of any lamp from any place on a patch.
-    pub fn is_clear(&self, patch: PatchId) -> bool {
-        self.candidates.of(patch).iter().all(|candidate| candidate.blockers.is_clear())
+    /// The light that all places on a patch may get.
+    pub fn on(&self, patch: PatchId) -> Outlook<'_> {
+        Outlook { light: self, patch, candidates: Cow::Borrowed(self.candidates.of(patch)) }
+    }
+
+    /// The light that places on a convex part of a patch may get: looked through once more where much stands in its
+    /// way, so that the more places are evaluated the better it pays.
+    pub fn on_part(&self, patch: PatchId, corners: &[DVec3]) -> Outlook<'_> {
+        let around = self.candidates.of(patch);
+        if around.iter().all(|candidate| candidate.blockers.are_few(LISTED)) {
+            return self.on(patch);
+        }
+        let receiver = Facet::new(corners, self.normals[patch.index()]);
+        let own = candidates::of_polygon((&self.lamps, &self.occluders), around, receiver);
+        Outlook { light: self, patch, candidates: Cow::Owned(own) }
     }
 
     /// What arrives at a place on a patch.
     pub fn at(&self, patch: PatchId, place: DVec3) -> Direct {
-        let mut work = Evaluation::new(self, (place, self.normals[patch.index()]));
-        for candidate in self.candidates.of(patch) {
-            work.add(candidate);
-        }
-        work.finish(|here| self.tolerated.error(patch, here))
+        self.on(patch).at(place)
     }
 
     /// What would arrive at a place on a patch if nothing stood between, W/m².
@@ -188,6 +209,16 @@ impl PatchLight {
         };
         let found: Vec<f64> = chosen.par_iter().map(irradiance).collect();
         found.iter().sum::<f64>() / found.len().max(1) as f64
+    }
+}
+
+impl Outlook<'_> {
+    /// What arrives at a place.
+    pub fn at(&self, place: DVec3) -> Direct {
+        let Self { light, patch, candidates } = self;
+        let mut work = Evaluation::new(light, (place, light.normals[patch.index()]));
+        candidates.iter().for_each(|candidate| work.add(candidate));
+        work.finish(|here| light.tolerated.error(*patch, here))
     }
 }
 

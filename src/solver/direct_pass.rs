@@ -1,6 +1,6 @@
 //! Direct light at vertices, and the mesh refined until it can be interpolated.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -11,7 +11,7 @@ use super::interpolate::{DIRECT, interpolate};
 use super::lookout::{ONE_PLACE, neighbours};
 use super::{Observer, Phase};
 use crate::colour::Rgb;
-use crate::direct::PatchLight;
+use crate::direct::{Outlook, PatchLight};
 use crate::mesh::{Direct, ElementId, Mesh, Middle, PatchId, Split, Vertex, VertexId};
 use crate::refine::{self, Discontinuity, Oracle, cut, strength};
 use crate::settings::Settings;
@@ -41,20 +41,65 @@ impl<'a> World<'a> {
     }
 }
 
-/// Evaluates direct light at all vertices that lack it.
+/// Evaluates direct light at all vertices that lack it; of these, those in the middle of `elements` and on their
+/// borders by what stands before each element.
 ///
 /// Vertices of facets that are in one group and at one place see the same share of it.
-pub(super) fn light(world: World<'_>, mesh: &mut Mesh, observer: &mut Observer<'_>) {
-    let dark: Vec<VertexId> = (0..mesh.vertices.len() as u32)
-        .map(VertexId)
-        .filter(|&v| mesh[v].direct.is_none())
-        .collect();
-    let sets = neighbours((mesh, world.groups), world.near, &dark);
+pub(super) fn light(
+    world: World<'_>,
+    mesh: &mut Mesh,
+    elements: &[ElementId],
+    observer: &mut Observer<'_>,
+) {
+    let (owned, others) = owners(world, mesh, elements);
+    let sets = neighbours((mesh, world.groups), world.near, &others);
+    let on_element = |(element, vertices): &(ElementId, SmallVec<[VertexId; 5]>)| {
+        let outlook = outlook(world, mesh, *element);
+        vertices.iter().map(|&v| outlook.at(mesh[v].site)).collect::<SmallVec<[Direct; 1]>>()
+    };
     let shine = |set: &SmallVec<_>| light_together(world, mesh, set);
-    let lit: Vec<SmallVec<[Direct; 1]>> = evaluate(world.light, &sets, shine, observer);
-    for (vertex, direct) in sets.iter().flatten().zip(lit.iter().flatten()) {
+    let mut lit = evaluate(world.light, &owned, on_element, observer);
+    // Cut short, the second list would not begin where the first ends.
+    if lit.len() == owned.len() {
+        lit.extend(evaluate(world.light, &sets, shine, observer));
+    }
+    let vertices = owned.iter().flat_map(|(_, vertices)| vertices).chain(sets.iter().flatten());
+    for (vertex, direct) in vertices.zip(lit.iter().flatten()) {
         mesh.vertices[vertex.index()].direct = Some(*direct);
     }
+}
+
+/// What is seen of the lamps from an element.
+fn outlook<'a>(world: World<'a>, mesh: &Mesh, element: ElementId) -> Outlook<'a> {
+    let plane = &world.surfaces.list[mesh.surface_of(element)].plane;
+    let corners: SmallVec<[DVec3; 8]> =
+        mesh.outline(element).iter().map(|&p| plane.lift(p)).collect();
+    world.light.on_part(mesh[element].patch, &corners)
+}
+
+/// Elements and their vertices.
+type Owned = Vec<(ElementId, SmallVec<[VertexId; 5]>)>;
+
+/// The vertices that lack light: those of each element, but for facets, and the others. Each is in one list, once.
+fn owners(world: World<'_>, mesh: &Mesh, elements: &[ElementId]) -> (Owned, Vec<VertexId>) {
+    let mut is_dark: Vec<bool> =
+        mesh.vertices.iter().map(|vertex| vertex.direct.is_none()).collect();
+    let mut owned = Vec::new();
+    for &element in elements.iter().filter(|&&e| !world.groups.holds(mesh[e].patch)) {
+        let middle = mesh.find_middle(element);
+        let middle = middle.iter().flat_map(|m| m.edges.iter().chain([&m.centre]));
+        let vertices = mesh[element].corners.iter().chain(middle).copied();
+        // Light is evaluated for a vertex on its own patch.
+        let dark = vertices.filter(|&v| {
+            mesh[v].patch == mesh[element].patch && std::mem::take(&mut is_dark[v.index()])
+        });
+        let dark: SmallVec<[VertexId; 5]> = dark.collect();
+        if !dark.is_empty() {
+            owned.push((element, dark));
+        }
+    }
+    let others = (0..mesh.vertices.len() as u32).map(VertexId).filter(|v| is_dark[v.index()]);
+    (owned, others.collect())
 }
 
 /// What `work` makes of each item, in their order.
@@ -105,10 +150,10 @@ pub(super) fn light_leaves(world: World<'_>, mesh: &mut Mesh, observer: &mut Obs
     // Facets are so small that their corners tell enough.
     let is_whole = |&leaf: &ElementId| !world.groups.holds(mesh[leaf].patch);
     let leaves: Vec<ElementId> = mesh.leaves().filter(is_whole).collect();
-    for leaf in leaves {
+    for &leaf in &leaves {
         mesh.middle(leaf);
     }
-    light(world, mesh, observer);
+    light(world, mesh, &leaves, observer);
     if observer.flow.is_break() {
         make_do(world, mesh);
     }
@@ -149,7 +194,7 @@ pub(super) fn refine(
     if observer.tell(Phase::Direct, 0.0).is_break() {
         return;
     }
-    light(world, mesh, observer);
+    light(world, mesh, &[], observer);
     if settings.uniform.is_some() || observer.flow.is_break() {
         return;
     }
@@ -173,7 +218,7 @@ pub(super) fn refine(
         }
         candidates.retain(|&e| may_be_divided(mesh, e));
         let middles: Vec<Middle> = candidates.iter().map(|&e| mesh.middle(e)).collect();
-        light(world, mesh, observer);
+        light(world, mesh, &candidates, observer);
         let judged: Vec<(ElementId, &Middle)> = candidates.iter().copied().zip(&middles).collect();
         let judge = |&(element, middle): &(ElementId, &Middle)| {
             divide((world, mesh), (&oracle, &lines), element, middle)
@@ -243,14 +288,17 @@ fn judge(
     let corners: Vec<(DVec2, Rgb)> =
         mesh[element].corners.iter().map(|&v| (mesh[v].position, irradiance(v))).collect();
     let surface = &world.surfaces.list[mesh.surface_of(element)];
+    let verdict = oracle.judge((mesh, element), middle, light, 0.0);
+    // Shadows between the middles of small elements are smaller than any that will be shown.
+    if matches!(verdict, Some(Split::Quarters)) || oracle.is_small(mesh, element) {
+        return verdict;
+    }
+    let outlook = outlook(world, mesh, element);
     let probe_error = |(position, expected): (DVec2, Rgb)| {
-        let place = surface.plane.lift(position);
-        let Direct { irradiance, .. } = world.light.at(mesh[element].patch, place);
+        let Direct { irradiance, .. } = outlook.at(surface.plane.lift(position));
         strength(reflectance * (irradiance - expected))
     };
-    // Shadows between the middles of small elements are smaller than any that will be shown.
-    let probes = if oracle.is_small(mesh, element) { Vec::new() } else { probes(&corners) };
-    let error = probes.into_iter().map(probe_error).fold(0.0, f64::max);
+    let error = probes(&corners).into_iter().map(probe_error).fold(0.0, f64::max);
     oracle.judge((mesh, element), middle, light, error)
 }
 

@@ -27,7 +27,12 @@ pub enum Blockers {
 impl Blockers {
     /// True if nothing stands in the shaft.
     pub fn is_clear(&self) -> bool {
-        matches!(self, Self::Few(list) if list.is_empty())
+        self.are_few(0)
+    }
+
+    /// True if they are known to be no more than `most`.
+    pub fn are_few(&self, most: usize) -> bool {
+        matches!(self, Self::Few(list) if list.len() <= most)
     }
 }
 
