@@ -117,7 +117,7 @@ mod tests {
             let mut found = Vec::new();
             for &one in &boxes {
                 tree.find(|other| are_close(one, other, distance), &mut found);
-                let all = (0..boxes.len() as u32);
+                let all = 0..boxes.len() as u32;
                 let close = all.filter(|&k| are_close(one, boxes[k as usize], distance));
                 prop_assert_eq!(&found, &close.collect::<Vec<_>>());
             }

@@ -190,3 +190,158 @@ pub(super) fn inside(rings: &[Ring], segment: Segment, tolerance: f64) -> Vec<Se
     parts.retain(is_inside);
     parts
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Face, Material, Scene};
+    use crate::surface::{Surfaces, surfaces_of};
+    use glam::DVec3;
+    use proptest::prelude::*;
+
+    fn add(scene: &mut Scene, polygon: &[DVec3]) {
+        let first = scene.positions.len() as u32;
+        let vertices = (first..first + polygon.len() as u32).collect();
+        scene.positions.extend(polygon);
+        scene.faces.push(Face { vertices, ..Face::default() });
+    }
+
+    /// Sides of a box, seen from outside.
+    fn add_box(scene: &mut Scene, low: DVec3, size: DVec3) {
+        let corner = |k: usize| {
+            low + size * DVec3::from([0, 1, 2].map(|axis| f64::from((k >> axis & 1) as u32)))
+        };
+        for side in
+            [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]]
+        {
+            add(scene, &side.map(corner));
+        }
+    }
+
+    /// An empty floor of this length and width, m, from the origin.
+    fn floor(length: f64, width: f64) -> Scene {
+        let mut scene = Scene { materials: vec![Material::default()], ..Scene::default() };
+        let (x, z) = (length * DVec3::X, width * DVec3::Z);
+        add(&mut scene, &[DVec3::ZERO, z, x + z, x]);
+        scene
+    }
+
+    /// Triangles of a sphere of unit radius, in rings from pole to pole, so many around.
+    fn sphere(around: usize) -> Vec<[DVec3; 3]> {
+        let place = |ring: usize, k: usize| {
+            let step = std::f64::consts::TAU / around as f64;
+            let (height, turn) = (step * ring as f64, step * (k % around) as f64);
+            DVec3::new(height.sin() * turn.cos(), height.cos(), height.sin() * turn.sin())
+        };
+        let quads = (0..around / 2).flat_map(|ring| (0..around).map(move |k| (ring, k)));
+        let halves = quads.flat_map(|(ring, k)| {
+            let [a, b] = [place(ring, k), place(ring, k + 1)];
+            let [c, d] = [place(ring + 1, k + 1), place(ring + 1, k)];
+            [[a, b, c], [a, c, d]]
+        });
+        halves.filter(|[a, b, c]| (b - a).cross(c - a).length() > 1e-9).collect()
+    }
+
+    /// Lines of all pairs, large enough, with the same distances.
+    fn of_all_pairs(Surfaces { list, extent, tolerance, .. }: &Surfaces) -> Vec<Vec<Segment>> {
+        let near = Near::new(*extent, *tolerance);
+        let size = |k: usize| list[k].extent();
+        let lines = |receiver: usize, other: usize| {
+            let reach = near.reach(list[receiver].bounds()).min(near.reach(list[other].bounds()));
+            contacts(&list[receiver], &list[other], [*tolerance, reach])
+        };
+        let of = |receiver: usize| {
+            let others = (0..list.len()).filter(|&k| k != receiver && size(k) >= near.smallest);
+            let divisible = size(receiver) >= DIVISIBLE * near.smallest;
+            others.filter(|_| divisible).flat_map(|other| lines(receiver, other)).collect()
+        };
+        (0..list.len()).map(of).collect()
+    }
+
+    /// A block of one of four sizes, on a lattice or a hair over it.
+    fn block() -> impl Strategy<Value = (DVec3, DVec3)> {
+        let size = prop::sample::select(vec![0.004, 0.01, 0.25, 1.0]);
+        let lift = prop::sample::select(vec![0.0, 5e-4, 0.015]);
+        let place =
+            prop::array::uniform3(0..16_u32).prop_map(|p| 0.25 * DVec3::from(p.map(f64::from)));
+        (place, lift, prop::array::uniform3(size))
+            .prop_map(|(place, lift, size)| (place + lift * DVec3::Y, DVec3::from(size)))
+    }
+
+    proptest! {
+        #[test]
+        fn lines_are_those_of_a_look_at_all_pairs(
+            blocks in prop::collection::vec(block(), 1..12),
+            leaves in prop::collection::vec(prop::array::uniform9(0.0..4.0_f64), 0..12),
+        ) {
+            let mut scene = floor(4.0, 4.0);
+            blocks.into_iter().for_each(|(low, size)| add_box(&mut scene, low, size));
+            for leaf in leaves {
+                add(&mut scene, &[0, 3, 6].map(|k| DVec3::from_slice(&leaf[k..])));
+            }
+            let surfaces = surfaces_of(&scene);
+            let found: Vec<_> = surfaces.list.iter().map(|surface| surface.contacts.clone()).collect();
+            prop_assert_eq!(found, of_all_pairs(&surfaces));
+        }
+    }
+
+    #[test]
+    fn a_box_that_hovers_low_over_a_table_draws_its_outline_there() {
+        let mut scene = floor(6.0, 5.0);
+        add_box(&mut scene, DVec3::new(2.0, 0.7, 2.0), DVec3::new(1.2, 0.04, 0.8));
+        add_box(&mut scene, DVec3::new(2.4, 0.741, 2.3), DVec3::new(0.3, 0.2, 0.2));
+        let surfaces = surfaces_of(&scene);
+        let top = surfaces.list.iter().find(|s| s.plane.height(DVec3::Y * 0.74).abs() < 1e-9);
+        let lines = &top.expect("the table has a top").contacts;
+        assert_eq!(lines.len(), 4, "{lines:?}");
+        assert!((lines.iter().map(|[a, b]| a.distance(*b)).sum::<f64>() - 1.0).abs() < 1e-6);
+    }
+
+    /// Lines of a table with a book on it and a thin shelf under it, on a floor of this length.
+    fn lines_of_furniture(length: f64) -> usize {
+        let mut scene = floor(length, 8.0);
+        add_box(&mut scene, DVec3::new(2.0, 0.70, 2.0), DVec3::new(1.2, 0.04, 0.7));
+        add_box(&mut scene, DVec3::new(2.0, 0.50, 2.0), DVec3::new(1.2, 0.02, 0.7));
+        add_box(&mut scene, DVec3::new(2.3, 0.74, 2.2), DVec3::new(0.3, 0.06, 0.2));
+        for (x, z) in [(2.0, 2.0), (3.15, 2.0), (2.0, 2.65), (3.15, 2.65)] {
+            add_box(&mut scene, DVec3::new(x, 0.0, z), DVec3::new(0.05, 0.7, 0.05));
+        }
+        surfaces_of(&scene).list.iter().map(|surface| surface.contacts.len()).sum()
+    }
+
+    #[test]
+    fn furniture_has_no_more_lines_in_a_long_tunnel_than_in_a_room() {
+        let [room, tunnel] = [8.0, 480.0].map(lines_of_furniture);
+        assert!(tunnel > 0 && tunnel <= room, "{tunnel} lines in the tunnel, {room} in the room");
+    }
+
+    #[test]
+    fn facets_of_a_thin_walled_ball_draw_no_lines_on_each_other() {
+        // The wall, seen from within, is narrow for the room and wide for the facets.
+        let mut scene = floor(6.0, 5.0);
+        let centre = DVec3::new(3.0, 1.0, 2.5);
+        for facet in sphere(120) {
+            add(&mut scene, &facet.map(|p| centre + 0.300 * p));
+            add(&mut scene, &[2, 1, 0].map(|k| centre + 0.304 * facet[k]));
+        }
+        let surfaces = surfaces_of(&scene);
+        let facets = surfaces.list.iter().filter(|surface| surface.extent() < 1.0);
+        assert_eq!(facets.map(|facet| facet.contacts.len()).sum::<usize>(), 0);
+    }
+
+    #[test]
+    fn lines_are_the_same_at_any_number_of_threads() {
+        let mut scene = floor(6.0, 5.0);
+        for k in 0..60 {
+            let place = DVec3::new(0.08 * f64::from(k), 0.01 * f64::from(k % 3), 2.0);
+            add_box(&mut scene, place, DVec3::new(0.3, 0.2, 0.1 + 0.01 * f64::from(k)));
+        }
+        let [one, two, seven] = [1, 2, 7].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let surfaces = pool.install(|| surfaces_of(&scene));
+            surfaces.list.into_iter().map(|surface| surface.contacts).collect::<Vec<_>>()
+        });
+        assert!(one.iter().any(|lines| !lines.is_empty()));
+        assert!(one == two && two == seven);
+    }
+}
