@@ -42,15 +42,16 @@ struct Junction {
 /// such an edge only touches it and is left alone.
 pub(super) fn join(scene: &mut Scene) {
     let mut moved = HashSet::new();
+    let mut found = find(scene);
     for _ in 0..PASSES {
-        let off: Vec<Junction> =
-            find(scene).into_iter().filter(|junction| junction.apart > EXACT).collect();
+        let off = found.iter().filter(|junction| junction.apart > EXACT);
+        let off: Vec<Junction> = off.copied().collect();
         if off.is_empty() {
             break;
         }
         straighten(scene, off, &mut moved);
+        found = find(scene);
     }
-    let mut found = find(scene);
     found.retain(|junction| junction.apart <= EXACT);
     let vertices: HashSet<u32> = found.iter().map(|junction| junction.vertex).collect();
     insert(scene, found);

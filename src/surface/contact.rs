@@ -25,7 +25,7 @@ const CLOSE_FOR_SIZE: f64 = 0.1;
 const PARALLEL: f64 = 0.996;
 
 /// What is smaller than this share of the scene's extent draws no lines: it is smaller than the smallest element of
-/// [`Settings::high`](crate::Settings::high).
+/// [`Settings::high`](crate::settings::Settings::high).
 const SMALLEST: f64 = 1.0 / 2000.0;
 
 /// Surfaces smaller than so many of the smallest elements cannot be divided, and get no lines.
