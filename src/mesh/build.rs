@@ -1,15 +1,16 @@
 //! Patches of a scene's surfaces, and the vertices that their elements share.
 
-use std::collections::HashMap;
-
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use smallvec::SmallVec;
 
 use super::{Corners, Element, ElementId, Mesh, Patch, PatchId, Reason, Vertex, VertexId};
+use crate::colour::Rgb;
+use crate::scene::boxes::{self, Tree, are_close};
 use crate::settings::Settings;
 use crate::surface::cut::{Cuts, convex_pieces};
 use crate::surface::polygon::{self, Convex, Segment};
-use crate::surface::{Plane, Surface, Surfaces, Weld, mean_texture};
+use crate::surface::{Cells, Plane, Surface, Surfaces, Weld, cell_key, cells_around, mean_texture};
 
 /// How far inside a border light is evaluated, in tolerances: well beyond what counts as touching it.
 const INSET: f64 = 50.0;
@@ -20,14 +21,19 @@ const CLOSE: f64 = 200.0;
 /// Sine of the least angle by which an outline bends at a corner.
 const STRAIGHT: f64 = 1e-6;
 
+/// Surfaces whose pieces are cut at a time: enough for all threads, few enough to forget.
+const AT_ONCE: usize = 4096;
+
 /// Finds the vertex at a place.
 #[derive(Clone, Debug)]
 pub(super) struct VertexIndex {
     sheets: Vec<Sheet>,
-    /// By surface, place on it, and, where a contact line runs through it, patch.
-    vertices: HashMap<(u32, u32, Option<PatchId>), VertexId>,
+    /// Vertices by surface and place on it; at one place, where a contact line runs through it, one for each patch.
+    cells: Cells,
     /// Places of vertices in space, one of those that are close to each other.
     landmarks: Weld,
+    /// How many vertices the landmarks know of: they are told when the first is looked for.
+    marked: usize,
     tolerance: f64,
 }
 
@@ -38,7 +44,15 @@ struct Sheet {
     /// Contact lines, and corners at which the surface bends round something: light may be another on
     /// each side.
     contacts: Vec<Segment>,
-    places: Weld,
+}
+
+/// What a patch is made from.
+struct Piece {
+    outline: Convex,
+    /// Means of the reflectance's and of the exitance's texture.
+    textures: [Rgb; 2],
+    /// Of the sheet, those near it.
+    contacts: SmallVec<[u32; 4]>,
 }
 
 impl Mesh {
@@ -54,14 +68,12 @@ impl Mesh {
             limit: settings.max_elements.unwrap_or(usize::MAX),
             is_full: false,
         };
-        for (number, surface) in surfaces.list.iter().enumerate() {
-            let cuts = Cuts {
-                segments: &surface.contacts,
-                size: settings.patch_length(surfaces.extent.max(surface.extent())),
-                tolerance: surfaces.tolerance,
-            };
-            for piece in convex_pieces(&surface.rings, &cuts) {
-                mesh.add_patch(surfaces, number as u32, &piece);
+        let numbers: Vec<u32> = (0..surfaces.list.len() as u32).collect();
+        for numbers in numbers.chunks(AT_ONCE) {
+            let pieces = |&number: &u32| mesh.index.pieces(surfaces, number, settings);
+            let pieces: Vec<Vec<Piece>> = numbers.par_iter().map(pieces).collect();
+            for (&number, pieces) in numbers.iter().zip(pieces) {
+                pieces.into_iter().for_each(|piece| mesh.add_patch(surfaces, number, piece));
             }
         }
         if let Some(size) = settings.uniform {
@@ -70,12 +82,12 @@ impl Mesh {
         mesh
     }
 
-    fn add_patch(&mut self, surfaces: &Surfaces, number: u32, outline: &Convex) {
+    fn add_patch(&mut self, surfaces: &Surfaces, number: u32, piece: Piece) {
+        let Piece { outline, textures: [reflectance_texture, exitance_texture], contacts } = piece;
         let surface = &surfaces.list[number as usize];
         let patch = PatchId(self.patches.len() as u32);
         let root = ElementId(self.elements.len() as u32);
-        let area = polygon::area(outline);
-        let [reflectance_texture, exitance_texture] = mean_texture(surfaces, surface, outline);
+        let area = polygon::area(&outline);
         self.patches.push(Patch {
             surface: number,
             root,
@@ -85,11 +97,7 @@ impl Mesh {
             reflectance: surface.reflectance * reflectance_texture,
             exitance: surface.exitance * exitance_texture,
             two_sided: surface.two_sided,
-            contacts: touching(
-                &self.index.sheets[number as usize].contacts,
-                outline,
-                surfaces.tolerance,
-            ),
+            contacts,
         });
         let corners: Corners = outline.iter().map(|&p| self.vertex(patch, p)).collect();
         let children = SmallVec::new();
@@ -100,40 +108,53 @@ impl Mesh {
     pub(super) fn vertex(&mut self, patch: PatchId, position: DVec2) -> VertexId {
         let surface = self[patch].surface;
         let on_contact = self.on_contact(patch, position);
-        let sheet = &mut self.index.sheets[surface as usize];
-        let place = sheet.places.number(position.extend(0.0));
-        let position = sheet.places.places()[place as usize].truncate();
-        let new = VertexId(self.vertices.len() as u32);
-        let key = (surface, place, on_contact.then_some(patch));
-        let vertex = *self.index.vertices.entry(key).or_insert(new);
-        if vertex == new {
-            let site = self.site(patch, position);
-            let (direct, indirect) = (None, None);
-            let plane = &self.index.sheets[surface as usize].plane;
-            self.index.landmarks.number(plane.lift(position));
-            self.vertices.push(Vertex {
-                surface,
-                patch,
-                position,
-                site,
-                on_contact,
-                direct,
-                indirect,
-            });
+        let place = self.place(surface, position);
+        let position = place.unwrap_or(position);
+        if let Some(found) = place.and_then(|place| self.vertex_at(place, patch, on_contact)) {
+            return found;
         }
-        vertex
+        let new = VertexId(self.vertices.len() as u32);
+        let key = cell_key(surface, position.extend(0.0), self.index.tolerance);
+        self.index.cells.add(key, new.0);
+        let site = self.site(patch, position);
+        let (direct, indirect) = (None, None);
+        self.vertices.push(Vertex { surface, patch, position, site, on_contact, direct, indirect });
+        new
     }
 
     /// The vertex of a patch at a place on its surface's plane, if there is one.
     pub fn find_vertex(&self, patch: PatchId, position: DVec2) -> Option<VertexId> {
+        let place = self.place(self[patch].surface, position)?;
+        self.vertex_at(place, patch, self.on_contact(patch, position))
+    }
+
+    /// Where on a surface the first vertex is that counts as being at a position.
+    fn place(&self, surface: u32, position: DVec2) -> Option<DVec2> {
+        let VertexIndex { cells, tolerance, .. } = &self.index;
+        let keys = cells_around(surface, position.extend(0.0), *tolerance);
+        let vertices = keys.flat_map(|key| cells.of(key)).map(|number| &self[VertexId(number)]);
+        let mut on_surface = vertices.filter(|vertex| vertex.surface == surface);
+        let first = on_surface.find(|vertex| vertex.position.distance(position) <= *tolerance);
+        first.map(|vertex| vertex.position)
+    }
+
+    /// The vertex at exactly a place, that of the patch if a contact line runs through it.
+    fn vertex_at(&self, place: DVec2, patch: PatchId, on_contact: bool) -> Option<VertexId> {
         let surface = self[patch].surface;
-        let place = self.index.sheets[surface as usize].places.find(position.extend(0.0))?;
-        let side = self.on_contact(patch, position).then_some(patch);
-        self.index.vertices.get(&(surface, place, side)).copied()
+        let key = cell_key(surface, place.extend(0.0), self.index.tolerance);
+        let is_it = |&id: &VertexId| {
+            let vertex = &self[id];
+            vertex.surface == surface
+                && vertex.position == place
+                && vertex.on_contact == on_contact
+                && (!on_contact || vertex.patch == patch)
+        };
+        self.index.cells.of(key).map(VertexId).find(is_it)
     }
 
     /// The vertex of a patch at a place on an edge; where one is close by, of any surface, that place.
     pub(super) fn vertex_on(&mut self, patch: PatchId, edge: Segment, position: DVec2) -> VertexId {
+        self.mark();
         let Sheet { plane, .. } = &self.index.sheets[self[patch].surface as usize];
         let landmarks = &self.index.landmarks;
         let close =
@@ -145,6 +166,15 @@ impl Mesh {
         };
         let position = close.and_then(flat).unwrap_or(position);
         self.vertex(patch, position)
+    }
+
+    /// Makes landmarks of the vertices that are none yet.
+    fn mark(&mut self) {
+        for vertex in &self.vertices[self.index.marked..] {
+            let plane = &self.index.sheets[vertex.surface as usize].plane;
+            self.index.landmarks.number(plane.lift(vertex.position));
+        }
+        self.index.marked = self.vertices.len();
     }
 
     /// Another vertex at the same place, for the light there on the side of a place inside.
@@ -208,11 +238,29 @@ impl VertexIndex {
         let sheet = |surface: &Surface| Sheet {
             plane: surface.plane,
             contacts: surface.contacts.iter().copied().chain(inner_corners(surface)).collect(),
-            places: Weld::new(tolerance),
         };
         let sheets = surfaces.list.iter().map(sheet).collect();
         let landmarks = Weld::new(CLOSE * tolerance);
-        Self { sheets, vertices: HashMap::new(), landmarks, tolerance }
+        Self { sheets, cells: Cells::default(), landmarks, marked: 0, tolerance }
+    }
+
+    /// The pieces of a surface, in the order of its patches.
+    fn pieces(&self, surfaces: &Surfaces, number: u32, settings: &Settings) -> Vec<Piece> {
+        let surface = &surfaces.list[number as usize];
+        let cuts = Cuts {
+            segments: &surface.contacts,
+            size: settings.patch_length(surfaces.extent.max(surface.extent())),
+            tolerance: self.tolerance,
+        };
+        let contacts = &self.sheets[number as usize].contacts;
+        let flat = |segment: &Segment| boxes::around(segment.map(|p| p.extend(0.0)));
+        let tree = Tree::new(contacts.iter().map(flat).collect());
+        let piece = |outline: Convex| Piece {
+            textures: mean_texture(surfaces, surface, &outline),
+            contacts: touching((contacts, &tree), &outline, self.tolerance),
+            outline,
+        };
+        convex_pieces(&surface.rings, &cuts).into_iter().map(piece).collect()
     }
 }
 
@@ -228,11 +276,19 @@ fn inner_corners(surface: &Surface) -> impl Iterator<Item = Segment> + '_ {
     })
 }
 
-/// Indices of the segments that come near a convex polygon.
-fn touching(segments: &[Segment], outline: &[DVec2], tolerance: f64) -> SmallVec<[u32; 4]> {
+/// Indices of the segments, with a tree over them, that come near a convex polygon.
+fn touching(
+    (segments, tree): (&[Segment], &Tree),
+    outline: &[DVec2],
+    tolerance: f64,
+) -> SmallVec<[u32; 4]> {
+    let mut found = Vec::new();
+    let around = boxes::around(outline.iter().map(|p| p.extend(0.0)));
+    tree.find(|bounds| are_close(around, bounds, 2.0 * tolerance), &mut found);
     let borders = polygon::borders(outline);
-    let near = |&(_, [a, b]): &(usize, &Segment)| {
-        borders.iter().all(|line| line.side(*a, 0.0).max(line.side(*b, 0.0)) >= -2.0 * tolerance)
+    let near = |&k: &u32| {
+        let [a, b] = segments[k as usize];
+        borders.iter().all(|line| line.side(a, 0.0).max(line.side(b, 0.0)) >= -2.0 * tolerance)
     };
-    segments.iter().enumerate().filter(near).map(|(k, _)| k as u32).collect()
+    found.into_iter().filter(near).collect()
 }

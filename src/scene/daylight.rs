@@ -18,10 +18,8 @@ const AROUND: usize = 8;
 /// Of these, as many must meet one: outside, the ground fills half the view from a wall.
 const ENCLOSED: usize = 6;
 
-/// Places to look from; fewer in large scenes, where each ray costs a look at every triangle.
-const MOST_PLACES: usize = 1024;
-const FEWEST_PLACES: usize = 64;
-const MOST_TESTS: usize = 30_000_000;
+/// Places to look from.
+const PLACES: usize = 1024;
 
 /// Fewer places than this are chance.
 pub(super) const FEWEST_ENTERED: usize = 4;
@@ -35,8 +33,7 @@ pub(super) fn entering(scene: &Scene, sight: &Sight<'_>) -> [usize; 2] {
     if lights.is_empty() {
         return [0; 2];
     }
-    let count = MOST_TESTS / (2 * LOOKS + AROUND) / sight.len().max(1);
-    let places = places(sight, count.clamp(FEWEST_PLACES, MOST_PLACES));
+    let places = places(sight, PLACES);
     let entered: Vec<[bool; 2]> = places
         .par_iter()
         .enumerate()

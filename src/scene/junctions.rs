@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
+use super::boxes::{Tree, are_close};
 use super::notes::note_count;
 use super::{Face, Scene};
 
@@ -41,15 +42,16 @@ struct Junction {
 /// such an edge only touches it and is left alone.
 pub(super) fn join(scene: &mut Scene) {
     let mut moved = HashSet::new();
+    let mut found = find(scene);
     for _ in 0..PASSES {
-        let off: Vec<Junction> =
-            find(scene).into_iter().filter(|junction| junction.apart > EXACT).collect();
+        let off = found.iter().filter(|junction| junction.apart > EXACT);
+        let off: Vec<Junction> = off.copied().collect();
         if off.is_empty() {
             break;
         }
         straighten(scene, off, &mut moved);
+        found = find(scene);
     }
-    let mut found = find(scene);
     found.retain(|junction| junction.apart <= EXACT);
     let vertices: HashSet<u32> = found.iter().map(|junction| junction.vertex).collect();
     insert(scene, found);
@@ -84,8 +86,8 @@ fn edge(face: &Face, corner: usize) -> [u32; 2] {
 /// All junctions, those of a face in the order of its outline.
 fn find(scene: &Scene) -> Vec<Junction> {
     let open = Open::new(scene);
-    let of_edge = |&(face, corner): &(usize, usize)| open.inside(scene, face, corner);
-    open.edges.par_iter().flat_map_iter(of_edge).collect()
+    let of_edge = |near: &mut Vec<u32>, &place: &(usize, usize)| open.inside(scene, place, near);
+    open.edges.par_iter().map_init(Vec::new, of_edge).flatten_iter().collect()
 }
 
 /// The open edges of a scene.
@@ -96,9 +98,9 @@ struct Open {
     joined: HashMap<u32, SmallVec<[u32; 4]>>,
     /// Length of the shortest of all edges at a vertex, m.
     shortest: Vec<f64>,
-    /// The longest axis of the scene, and the vertices along it.
-    axis: usize,
-    along: Vec<(f64, u32)>,
+    /// The ends of open edges, and a tree over them.
+    ends: Vec<u32>,
+    tree: Tree,
 }
 
 impl Open {
@@ -125,27 +127,32 @@ impl Open {
                 edges.push(place);
             }
         }
-        let size = scene.bounds().map_or(DVec3::ZERO, |(low, high)| high - low);
-        let axis = size.max_position();
-        let place = |&vertex: &u32| (scene.positions[vertex as usize][axis], vertex);
-        let mut along: Vec<(f64, u32)> = joined.keys().map(place).collect();
-        along.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        Self { edges, joined, shortest, axis, along }
+        let mut ends: Vec<u32> = joined.keys().copied().collect();
+        ends.sort_unstable();
+        let place =
+            |&vertex: &u32| (scene.positions[vertex as usize], scene.positions[vertex as usize]);
+        let tree = Tree::new(ends.iter().map(place).collect());
+        Self { edges, joined, shortest, ends, tree }
     }
 
     /// The vertices in an edge, in their order along it.
-    fn inside(&self, scene: &Scene, face: usize, corner: usize) -> Vec<Junction> {
+    fn inside(
+        &self,
+        scene: &Scene,
+        (face, corner): (usize, usize),
+        near: &mut Vec<u32>,
+    ) -> Vec<Junction> {
         let own = &scene.faces[face];
         let at = |vertex: u32| scene.positions[vertex as usize];
         let [a, b] = edge(own, corner).map(at);
         let length = a.distance(b);
         let margin = DVec3::splat(ON_EDGE * length);
-        let (low, high) = (a.min(b) - margin, a.max(b) + margin);
-        let first = self.along.partition_point(|(x, _)| *x < low[self.axis]);
-        let near = self.along[first..].iter().take_while(|(x, _)| *x <= high[self.axis]);
-        let junction = |&(_, vertex): &(f64, u32)| {
+        let around = (a.min(b) - margin, a.max(b) + margin);
+        self.tree.find(|bounds| are_close(around, bounds, 0.0), near);
+        let junction = |&number: &u32| {
+            let vertex = self.ends[number as usize];
             let p = at(vertex);
-            if p.cmplt(low).any() || p.cmpgt(high).any() || own.vertices.contains(&vertex) {
+            if own.vertices.contains(&vertex) {
                 return None;
             }
             let reach = (ON_EDGE * length).min(SHORTEST_EDGE * self.shortest[vertex as usize]);
@@ -158,7 +165,7 @@ impl Open {
             let (share, apart) = (way / length, apart / length);
             is_junction.then_some(Junction { face, corner, vertex, share, apart })
         };
-        let mut found: Vec<Junction> = near.filter_map(junction).collect();
+        let mut found: Vec<Junction> = near.iter().filter_map(junction).collect();
         found.sort_by(|a, b| a.share.total_cmp(&b.share));
         found
     }

@@ -4,6 +4,7 @@
 //! linear, emission is radiance, lights are in watts, texture coordinates have their transforms applied.
 
 mod adding;
+pub(crate) mod boxes;
 mod camera;
 mod corners;
 mod daylight;

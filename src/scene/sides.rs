@@ -81,10 +81,8 @@ const WORTH_TELLING: f64 = 0.2;
 /// Share of light on fronts below which a room is as good as black.
 const HARDLY_ANY: f64 = 0.1;
 
-/// Rays from lamps; fewer in large scenes, where each costs a look at every triangle.
-const MOST_RAYS: usize = 512;
-const FEWEST_RAYS: usize = 64;
-const MOST_TESTS: usize = 30_000_000;
+/// Rays from lamps.
+const RAYS: usize = 512;
 
 /// Where the light of lamps goes, as shares of it.
 #[derive(Debug, Default)]
@@ -108,10 +106,9 @@ impl Found {
             return Self::default();
         }
         let sight = Sight::new(scene);
-        let rays = (MOST_TESTS / sight.len().max(1)).clamp(FEWEST_RAYS, MOST_RAYS);
-        let (before, behind) = rays_of_faces(scene, &sight, rays);
+        let (before, behind) = rays_of_faces(scene, &sight, RAYS);
         let mut found = Self::default();
-        let points = rays_of_lights(scene, rays);
+        let points = rays_of_lights(scene, RAYS);
         if before.is_empty() && points.is_empty() {
             return Self { entering: entering(scene, &sight), ..Self::default() };
         }

@@ -1,9 +1,10 @@
-//! The first face along a ray, found by looking at all of them: for the few rays that reading a scene needs.
+//! The first face along a ray: for the few rays that reading a scene needs.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::Scene;
+use super::boxes::{self, Bounds, Tree};
 use super::polygon::{area_vector, flattened, triangulate};
 
 /// What a ray meets first.
@@ -21,6 +22,8 @@ pub(super) struct Hit {
 pub(super) struct Sight<'a> {
     scene: &'a Scene,
     triangles: Vec<(u32, [DVec3; 3])>,
+    /// Over the triangles.
+    tree: Tree,
     /// Anything nearer than this is where the ray starts, m.
     nearest: f64,
 }
@@ -43,12 +46,9 @@ impl<'a> Sight<'a> {
             let placed = pieces.into_iter().map(|piece| piece.map(|corner| corners[corner]));
             triangles.extend(placed.map(|piece| (index as u32, piece)));
         }
-        Self { scene, triangles, nearest: NEAREST * scene.extent() }
-    }
-
-    /// Number of triangles.
-    pub(super) fn len(&self) -> usize {
-        self.triangles.len()
+        let around = |(_, corners): &(u32, [DVec3; 3])| boxes::around(*corners);
+        let tree = Tree::new(triangles.iter().map(around).collect());
+        Self { scene, triangles, tree, nearest: NEAREST * scene.extent() }
     }
 
     /// Each with the index of its face.
@@ -63,7 +63,10 @@ impl<'a> Sight<'a> {
 
     /// What a ray from `start` along a unit `direction` meets.
     pub(super) fn first(&self, start: DVec3, direction: DVec3) -> Option<Hit> {
-        let hits = self.triangles.iter().filter_map(|(face, corners)| {
+        let mut met = Vec::new();
+        self.tree.find(|bounds| meets(start, direction, bounds, self.nearest), &mut met);
+        let met = met.into_iter().map(|index| &self.triangles[index as usize]);
+        let hits = met.filter_map(|(face, corners)| {
             let (distance, front) = crossing(start, direction, corners)?;
             (distance > self.nearest).then_some((distance, front, *face))
         });
@@ -72,6 +75,23 @@ impl<'a> Sight<'a> {
         let lamp = material.emission.max_element() > 0.0;
         Some(Hit { distance, front: front || material.double_sided, lamp })
     }
+}
+
+/// True if a ray comes as near as this to a box, m.
+fn meets(start: DVec3, direction: DVec3, (low, high): Bounds, near: f64) -> bool {
+    let (low, high) = (low - near - start, high + near - start);
+    let (mut from, mut to) = (0.0, f64::INFINITY);
+    for axis in 0..3 {
+        if direction[axis] == 0.0 {
+            if low[axis] > 0.0 || high[axis] < 0.0 {
+                return false;
+            }
+            continue;
+        }
+        let (a, b) = (low[axis] / direction[axis], high[axis] / direction[axis]);
+        (from, to) = (a.min(b).max(from), a.max(b).min(to));
+    }
+    from <= to
 }
 
 /// Distance to a triangle, and whether its front is met (Möller and Trumbore 1997).

@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use glam::{DAffine2, DMat2, DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::plane::Plane;
 use super::polygon::{Ring, area};
@@ -59,23 +60,26 @@ pub(super) fn single_faces(scene: &Scene) -> Vec<Region> {
     scene.faces.iter().enumerate().map(region).collect()
 }
 
-/// Faces by their directed edges.
-struct Neighbours(HashMap<[u32; 2], Vec<usize>>);
+/// Directed edges and the faces that have them, in order.
+struct Neighbours(Vec<([u32; 2], u32)>);
 
 impl Neighbours {
     fn new(scene: &Scene) -> Self {
-        let mut by_edge: HashMap<[u32; 2], Vec<usize>> = HashMap::new();
-        for (index, face) in scene.faces.iter().enumerate() {
-            for edge in edges(face) {
-                by_edge.entry(edge).or_default().push(index);
-            }
-        }
-        Self(by_edge)
+        let faces = scene.faces.iter().enumerate();
+        let mut all: Vec<([u32; 2], u32)> = faces
+            .flat_map(|(index, face)| edges(face).map(move |edge| (edge, index as u32)))
+            .collect();
+        all.par_sort_unstable();
+        Self(all)
     }
 
     /// Faces that share an edge with this one, running along it the other way.
     fn of<'a>(&'a self, scene: &'a Scene, face: usize) -> impl Iterator<Item = usize> + 'a {
-        edges(&scene.faces[face]).filter_map(|[a, b]| self.0.get(&[b, a])).flatten().copied()
+        edges(&scene.faces[face]).flat_map(|[a, b]| {
+            let first = self.0.partition_point(|(edge, _)| *edge < [b, a]);
+            let same = self.0[first..].iter().take_while(move |(edge, _)| *edge == [b, a]);
+            same.map(|(_, face)| *face as usize)
+        })
     }
 }
 
@@ -148,6 +152,13 @@ fn uv_map(scene: &Scene, plane: &Plane, face: &Face) -> Option<DAffine2> {
 
 /// Rings of the edges that only one of the faces has.
 fn outline(scene: &Scene, plane: &Plane, faces: &[usize]) -> Vec<Ring> {
+    if let &[face] = faces
+        && scene.faces[face].vertices.len() == 3
+    {
+        // Most faces of large scenes are facets by themselves.
+        let corners = scene.faces[face].corners(&scene.positions);
+        return vec![corners.into_iter().map(|p| plane.flatten(p)).collect()];
+    }
     let mut follow: HashMap<u32, Vec<u32>> = HashMap::new();
     let mut starts = Vec::new();
     let all: HashSet<[u32; 2]> = faces.iter().flat_map(|&f| edges(&scene.faces[f])).collect();
@@ -169,6 +180,8 @@ fn outline(scene: &Scene, plane: &Plane, faces: &[usize]) -> Vec<Ring> {
             rings.push(ring);
         }
     }
+    rings.iter_mut().for_each(Ring::shrink_to_fit);
+    rings.shrink_to_fit();
     rings.sort_by(|a, b| area(b).total_cmp(&area(a)));
     rings
 }

@@ -1,6 +1,5 @@
 //! Planar polygons of one material, made by joining coplanar neighbours, and where others touch them.
 
-mod boxes;
 mod contact;
 pub mod cut;
 mod light_group;
@@ -16,6 +15,7 @@ mod weld;
 use glam::{DAffine2, DMat2, DVec2, DVec3};
 
 use crate::colour::Rgb;
+use crate::scene::boxes;
 use crate::scene::{Material, NamedLight, Scene, Texture};
 
 pub use light_group::{LightGroup, StrengthUnit};
@@ -23,6 +23,7 @@ pub use picture::mean_texture;
 pub use plane::Plane;
 pub use polygon::{Ring, Segment};
 pub use weld::Weld;
+pub(crate) use weld::{Cells, cell_key, cells_around};
 
 /// All surfaces of a scene, and what else of it light and pictures depend on.
 #[derive(Clone, Debug)]
@@ -174,9 +175,7 @@ impl Surface {
 
     /// Opposite corners of its bounding box, m.
     pub fn bounds(&self) -> (DVec3, DVec3) {
-        let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let corners = self.rings.iter().flatten().map(|&p| self.plane.lift(p));
-        corners.fold(empty, |(low, high), p| (low.min(p), high.max(p)))
+        boxes::around(self.rings.iter().flatten().map(|&p| self.plane.lift(p)))
     }
 
     /// Diagonal of its bounding box, m.

@@ -1,14 +1,15 @@
 //! Surfaces that lie in one place: a picture in the plane of its wall, a lamp in that of its ceiling.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::TOLERANCE;
-use super::boxes::close_pairs;
 use super::contact::inside;
 use super::merge::Region;
 use super::partly;
 use super::polygon::{Ring, area, centroid, contains, edges};
 use crate::colour::luminance;
+use crate::scene::boxes::{self, Bounds, Tree, are_close};
 use crate::scene::{Scene, note_count};
 
 /// Regions of which none covers another: what lies in the plane of a larger one and faces the same way is cut
@@ -22,12 +23,15 @@ pub(super) fn without_overlaps(
     notes: &mut Vec<String>,
 ) -> Vec<Region> {
     let tolerance = TOLERANCE * scene.extent();
-    let bounds: Vec<_> = regions.iter().map(bounds).collect();
-    let ranks: Vec<Rank> = (0..regions.len()).map(|k| Rank::new(scene, &regions, k)).collect();
+    let ranks: Vec<Rank> =
+        (0..regions.len()).into_par_iter().map(|k| Rank::new(scene, &regions, k)).collect();
     let mut within: Vec<Vec<usize>> = vec![Vec::new(); regions.len()];
     let mut beside = Vec::new();
-    for (large, small) in close_pairs(&bounds, tolerance) {
-        if is_covered(&regions, [large, small], &ranks, tolerance) {
+    let pairs = level_pairs(&regions, tolerance);
+    let covered = |&pair: &[usize; 2]| is_covered(&regions, pair, &ranks, tolerance);
+    let covered: Vec<bool> = pairs.par_iter().map(covered).collect();
+    for ([large, small], is_covered) in pairs.into_iter().zip(covered) {
+        if is_covered {
             within[large].push(small);
         } else {
             beside.push((large, small));
@@ -49,6 +53,24 @@ pub(super) fn without_overlaps(
     note_count(notes, inner.len(), "surface", "cut out of larger ones in whose planes they lie");
     note_count(notes, cut, "surface", "cut where another lies in its plane");
     regions
+}
+
+/// Ordered pairs of regions of which the second lies in the plane of the first, faces the same way and may touch it.
+fn level_pairs(regions: &[Region], tolerance: f64) -> Vec<[usize; 2]> {
+    let tree = Tree::new(regions.par_iter().map(bounds).collect());
+    let of = |found: &mut Vec<u32>, outer: usize| {
+        let plane = &regions[outer].plane;
+        let meets = |(low, high): Bounds| {
+            let around = (high - low).dot(plane.normal.abs()) / 2.0;
+            are_close(tree.boxes()[outer], (low, high), tolerance)
+                && plane.height(low.midpoint(high)).abs() <= around + 2.0 * tolerance
+        };
+        tree.find(meets, found);
+        let others = found.iter().map(|&inner| inner as usize).filter(|&inner| inner != outer);
+        let level = others.filter(|&k| are_level(&regions[outer], &regions[k], tolerance));
+        level.map(|inner| [outer, inner]).collect::<Vec<_>>()
+    };
+    (0..regions.len()).into_par_iter().map_init(Vec::new, of).flatten_iter().collect()
 }
 
 /// Which of two regions in one place is meant: the greater.
@@ -79,9 +101,8 @@ fn size(region: &Region) -> f64 {
     region.rings.iter().map(|ring| area(ring)).sum()
 }
 
-fn bounds(region: &Region) -> (DVec3, DVec3) {
-    let corners = region.rings.iter().flatten().map(|&p| region.plane.lift(p));
-    corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
+fn bounds(region: &Region) -> Bounds {
+    boxes::around(region.rings.iter().flatten().map(|&p| region.plane.lift(p)))
 }
 
 /// The rings of the second region as holes in the first.
@@ -98,7 +119,7 @@ pub(super) fn are_level(outer: &Region, inner: &Region, tolerance: f64) -> bool 
     inner.plane.normal.dot(outer.plane.normal) > 0.999 && corners.all(level)
 }
 
-/// True if the second region lies in the first and is to be seen in its stead.
+/// True if the second of two regions in one plane lies in the first and is to be seen in its stead.
 fn is_covered(
     regions: &[Region],
     [large, small]: [usize; 2],
@@ -106,9 +127,6 @@ fn is_covered(
     tolerance: f64,
 ) -> bool {
     let (outer, inner) = (&regions[large], &regions[small]);
-    if !are_level(outer, inner, tolerance) {
-        return false;
-    }
     let sizes = [size(outer), size(inner)];
     let alike = (sizes[0] - sizes[1]).abs() <= 1e-6 * sizes[0];
     // Of two in one place, the one that glows is meant, or else the one that the file has first.

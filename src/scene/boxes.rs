@@ -1,0 +1,126 @@
+//! Boxes in boxes: which of many lie where something is looked for, without looking at all of them.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+/// Opposite corners.
+pub(crate) type Bounds = (DVec3, DVec3);
+
+/// Few enough to look at one by one.
+const FEW: usize = 8;
+
+/// Around nothing.
+const NOWHERE: Bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+
+/// The box around points.
+pub(crate) fn around(points: impl IntoIterator<Item = DVec3>) -> Bounds {
+    points.into_iter().fold(NOWHERE, |(low, high), p| (low.min(p), high.max(p)))
+}
+
+/// Boxes in an order in which neighbours are close, under a binary tree of the boxes around them.
+#[derive(Debug)]
+pub(crate) struct Tree {
+    boxes: Vec<Bounds>,
+    order: Vec<u32>,
+    nodes: Vec<Node>,
+}
+
+#[derive(Debug)]
+struct Node {
+    bounds: Bounds,
+    /// Of the order.
+    range: Range<u32>,
+    /// The second child; the first follows its parent. None has number 0, which is the root's.
+    second: u32,
+}
+
+impl Tree {
+    /// Divides in the middle, so that the depth is that of a logarithm.
+    pub(crate) fn new(boxes: Vec<Bounds>) -> Self {
+        let (count, nodes) = (boxes.len(), Vec::new());
+        let mut tree = Self { boxes, order: (0..count as u32).collect(), nodes };
+        tree.build(0..count);
+        tree
+    }
+
+    fn build(&mut self, range: Range<usize>) {
+        let all = self.order[range.clone()].iter().map(|&index| self.boxes[index as usize]);
+        let bounds = all.fold(NOWHERE, |(low, high), (a, b)| (low.min(a), high.max(b)));
+        let node = self.nodes.len();
+        let numbers = range.start as u32..range.end as u32;
+        self.nodes.push(Node { bounds, range: numbers, second: 0 });
+        if range.len() > FEW {
+            let axis = (bounds.1 - bounds.0).max_position();
+            let boxes = &self.boxes;
+            let middle = |index: u32| {
+                let (low, high) = boxes[index as usize];
+                low[axis] + high[axis]
+            };
+            let half = range.len() / 2;
+            self.order[range.clone()].select_nth_unstable_by(half, |&a, &b| {
+                middle(a).total_cmp(&middle(b)).then(a.cmp(&b))
+            });
+            self.build(range.start..range.start + half);
+            self.nodes[node].second = self.nodes.len() as u32;
+            self.build(range.start + half..range.end);
+        }
+    }
+
+    /// The boxes, by index.
+    pub(crate) fn boxes(&self) -> &[Bounds] {
+        &self.boxes
+    }
+
+    /// Puts the indices of the boxes that something meets into `found`, in rising order.
+    ///
+    /// What meets a box must meet all boxes around it.
+    pub(crate) fn find(&self, meets: impl Fn(Bounds) -> bool, found: &mut Vec<u32>) {
+        found.clear();
+        let mut stack = vec![0];
+        while let Some(index) = stack.pop() {
+            let node = &self.nodes[index as usize];
+            if !meets(node.bounds) {
+                continue;
+            }
+            if node.second > 0 {
+                stack.extend([index + 1, node.second]);
+            } else {
+                let members = &self.order[node.range.start as usize..node.range.end as usize];
+                found.extend(members.iter().filter(|&&member| meets(self.boxes[member as usize])));
+            }
+        }
+        found.sort_unstable();
+    }
+}
+
+/// True if two boxes are at most this far from each other along every axis, m.
+pub(crate) fn are_close(a: Bounds, b: Bounds, distance: f64) -> bool {
+    (a.0 - b.1).max(b.0 - a.1).max_element() <= distance
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn boxes() -> impl Strategy<Value = Vec<Bounds>> {
+        let corner = || prop::array::uniform3(0.0..10.0f64).prop_map(DVec3::from);
+        let one = (corner(), prop::array::uniform3(0.0..2.0f64));
+        prop::collection::vec(one.prop_map(|(low, size)| (low, low + DVec3::from(size))), 0..60)
+    }
+
+    proptest! {
+        #[test]
+        fn boxes_found_are_those_of_a_look_at_all(boxes in boxes(), distance in 0.0..1.0f64) {
+            let tree = Tree::new(boxes.clone());
+            let mut found = Vec::new();
+            for &one in &boxes {
+                tree.find(|other| are_close(one, other, distance), &mut found);
+                let all = 0..boxes.len() as u32;
+                let close = all.filter(|&k| are_close(one, boxes[k as usize], distance));
+                prop_assert_eq!(&found, &close.collect::<Vec<_>>());
+            }
+        }
+    }
+}
