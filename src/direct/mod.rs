@@ -7,6 +7,7 @@ mod lines;
 mod outlook;
 mod punctual;
 mod rims;
+mod rough;
 mod sky;
 mod tally;
 

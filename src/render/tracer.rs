@@ -4,6 +4,7 @@
 //! of the interpolated picture differ from what is beside them, at all samples.
 
 use std::ops::{ControlFlow, Range};
+use std::time::Instant;
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -15,13 +16,11 @@ use super::rays::Rays;
 use super::shade::{Gather, Shade};
 use crate::colour::Rgb;
 use crate::scene::Camera;
+use crate::watch::Pace;
 
 /// Samples of a pixel and of those beside it may differ by this share of their mean before the pixel
 /// gets all of its samples: about three steps of an 8-bit picture.
 const SMOOTH: f64 = 0.03;
-
-/// Pixels between two questions whether to go on.
-const BATCH: usize = 2048;
 
 /// Means over a pixel.
 #[derive(Clone, Copy, Debug, Default)]
@@ -203,13 +202,16 @@ impl<'a> Work<'a, '_> {
         find: impl Fn(usize, Gather<'a>) -> T + Sync,
     ) -> Vec<T> {
         let mut found = Vec::with_capacity(pixels.len());
-        for batch in pixels.chunks(BATCH) {
+        let mut pace = Pace::new();
+        while found.len() < pixels.len() {
             let done = found.len() as f64 / pixels.len() as f64;
             if (self.observe)(part.start + done * (part.end - part.start)).is_break() {
                 self.gather = None;
             }
-            let gather = self.gather;
+            let (gather, start) = (self.gather, Instant::now());
+            let batch = pace.batch(&pixels[found.len()..]);
             found.par_extend(batch.par_iter().map(|&index| find(index, gather)));
+            pace.learn(batch.len(), start.elapsed());
         }
         found
     }

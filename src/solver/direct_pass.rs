@@ -7,8 +7,8 @@ use serde::de::DeserializeOwned;
 use smallvec::SmallVec;
 
 use super::groups::Groups;
-use super::interpolate::{DIRECT, interpolate};
 use super::lookout::{ONE_PLACE, neighbours};
+use super::unfinished::make_do;
 use super::{Observer, Phase};
 use crate::colour::Rgb;
 use crate::direct::PatchLight;
@@ -110,24 +110,8 @@ pub(super) fn light_leaves(world: World<'_>, mesh: &mut Mesh, observer: &mut Obs
     }
     light(world, mesh, observer);
     if observer.flow.is_break() {
-        make_do(world, mesh);
+        make_do(world.light, mesh);
     }
-}
-
-/// Gives vertices that were not evaluated in time what others say, or what would arrive if nothing stood between.
-fn make_do(World { light, .. }: World<'_>, mesh: &mut Mesh) {
-    let open = |vertex: &Vertex| {
-        let unoccluded = light.unoccluded(vertex.patch, vertex.site);
-        Direct { irradiance: unoccluded, unoccluded }
-    };
-    for patch in 0..mesh.patches.len() {
-        let root = mesh.patches[patch].root;
-        for corner in mesh[root].corners.clone() {
-            let vertex = &mut mesh.vertices[corner.index()];
-            vertex.direct = Some(vertex.direct.unwrap_or_else(|| open(vertex)));
-        }
-    }
-    interpolate(mesh, DIRECT);
 }
 
 /// True for small facets that are lit evenly, as their neighbours will be: no shadow edge is looked for that

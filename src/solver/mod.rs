@@ -22,6 +22,7 @@ pub mod relaxation;
 mod sources;
 mod stages;
 mod transport;
+mod unfinished;
 mod work;
 mod work_plane;
 
@@ -114,8 +115,12 @@ pub struct Progress {
 /// The passes of a solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Phase {
+    /// What each patch sees of the lamps.
+    Lamps,
     /// Direct light, refining the mesh.
     Direct,
+    /// Lines on which direct light has a kink or a bend.
+    Lines,
     /// Exchange of reflected light.
     Shooting,
     /// Indirect light at vertices.
@@ -179,7 +184,7 @@ pub fn solve_with(
     let mut observer = Observer::new(&mut observe, checkpoint);
     let mut mesh = Mesh::new(surfaces, settings);
     check_reflectances(surfaces, &mesh)?;
-    let light = lamps_on(surfaces, settings, &mesh)?;
+    let light = lamps_on(surfaces, settings, &mesh, &mut observer)?;
     let groups = Groups::new(surfaces, settings, &mesh);
     let world = World::new(surfaces, &light, &groups);
 
@@ -192,7 +197,14 @@ pub fn solve_with(
 }
 
 /// All light straight from emitters on the patches of a mesh; there must be some.
-fn lamps_on(surfaces: &Surfaces, settings: &Settings, mesh: &Mesh) -> Result<PatchLight> {
+fn lamps_on(
+    surfaces: &Surfaces,
+    settings: &Settings,
+    mesh: &Mesh,
+    observer: &mut Observer<'_>,
+) -> Result<PatchLight> {
+    // What is left of lamps once there has been enough is told to the end.
+    let _ = observer.begin(Phase::Lamps, 0.0..1.0);
     let lamps = Lamps::new(surfaces, mesh).seen_by(settings.shadow_rays);
     if lamps.is_empty() {
         return Err(Error::Scene(DARK.to_owned()));
@@ -274,14 +286,14 @@ impl Exchange {
         observer: &mut Observer<'_>,
     ) -> Result<Self> {
         let mut light = ElementLight::direct(mesh);
-        let mut shooting = Shooting::new(mesh, world, settings, &light);
-        let (stop, history) = shooting.run(settings, observer)?;
+        let mut shooting = Shooting::new(mesh, world, settings, (&light, observer));
+        let (stop, history) = shooting.run(settings)?;
         light.settle(mesh, &shooting.received);
         let ambient = if stop == Stop::Converged {
             light.scale_to_the_rest(mesh, shooting.ambient());
             Rgb::ZERO
         } else {
-            shooting.ambient()
+            shooting.ambient_of_the_rest()
         };
         let Shooting { energy, shots, hemicubes, factors, .. } = shooting;
         Ok(Self { light, energy, stop, shots, hemicubes, factors, ambient, history })
