@@ -8,6 +8,7 @@ use radiosity::export::{self, Stamp};
 use radiosity::lightmap::Atlas;
 use radiosity::mesh::Direct;
 use radiosity::render::{self, Solved, Subject};
+use radiosity::scene::Texture;
 use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
 use radiosity::{Error, Scene, Settings, Solution, Surfaces, surfaces_of};
@@ -18,6 +19,7 @@ use super::grid::GridOptions;
 use super::interrupt::Interrupt;
 use super::lighting::{Lighting, Lit, RelightOptions};
 use super::lightmap::LightmapOptions;
+use super::memory::Needs;
 use super::meter::Meter;
 use super::options::{
     AccuracyOptions, CameraChoice, CheckpointOptions, HINT, LimitOptions, PictureOptions,
@@ -32,7 +34,8 @@ use super::{console, outputs};
 ///
 /// Surfaces are diffuse. Light straight from emitters is exact and refines the mesh where shadows
 /// and gradients ask for it; reflected light is exchanged between patches until almost nothing is
-/// left unshot. Ctrl-C ends the work after the current shot and still writes everything.
+/// left unshot. Ctrl-C and SIGTERM end the work early and still
+/// write everything.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Solve {
@@ -107,7 +110,8 @@ Examples:
 
 impl Solve {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        let settings = self.limits.limited(self.accuracy.settings());
+        let memory = self.limits.memory();
+        let settings = self.accuracy.settings();
         settings.validate()?;
         self.check()?;
         self.report.talk.use_threads()?;
@@ -115,13 +119,20 @@ impl Solve {
         let mut meter = Meter::new(&self.report.talk);
         self.warn_of_nothing(&meter);
 
+        memory.check_file(self.scene.bytes())?;
         let (mut scene, camera) = self.read(&mut meter)?;
+        let needs = self.needs(&scene);
+        memory.check_needs(&needs, "for the scene's faces")?;
         let surfaces = surfaces(&mut scene, &mut meter);
         let places = self.grid.places(&surfaces)?;
         let atlas = self.lightmap.atlas(&surfaces)?;
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
         settings.validate_for(surfaces.area(), surfaces.extent)?;
-        self.announce((&surfaces, &settings), &settings_record, &meter);
+        meter.explain(&settings_record.to_string());
+        let estimate = Estimate::new(&surfaces, &settings, needs);
+        memory.check_needs(&estimate.least(), "for the patches of the scene")?;
+        meter.tell(&estimate.to_string());
+        let settings = Settings { max_elements: memory.elements(&estimate.least()), ..settings };
         let lighting = Lighting {
             surfaces: &surfaces,
             settings: &settings,
@@ -171,15 +182,16 @@ impl Solve {
         })
     }
 
-    /// What is asked for, and what to expect of it.
-    fn announce(
-        &self,
-        (surfaces, settings): (&Surfaces, &Settings),
-        record: &SettingsRecord,
-        meter: &Meter,
-    ) {
-        meter.explain(&record.to_string());
-        meter.tell(&Estimate::new(surfaces, settings).to_string());
+    /// What takes memory before there are patches, and at the end.
+    fn needs(&self, scene: &Scene) -> Needs {
+        let bytes = |texture: &Texture| size_of_val(texture.texels.as_slice());
+        Needs {
+            faces: scene.faces.len(),
+            pixels: if self.image.is_empty() { 0 } else { self.picture.pixels() },
+            texels: self.lightmap.texels(),
+            texture_bytes: scene.textures.iter().map(bytes).sum::<usize>() as u64,
+            ..Needs::default()
+        }
     }
 
     fn read(&self, meter: &mut Meter) -> Result<(Scene, CameraChoice), Failure> {

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
+use super::Lamps;
 use super::glimpse::place_on;
 use super::punctual::{self, Source};
-use super::Lamps;
 use crate::colour::Rgb;
 use crate::mesh::Direct;
 use crate::visibility::Occluders;

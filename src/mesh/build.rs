@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use smallvec::SmallVec;
 
 use super::{Corners, Element, ElementId, Mesh, Patch, PatchId, Reason, Vertex, VertexId};
@@ -55,12 +56,7 @@ impl Mesh {
             is_full: false,
         };
         for (number, surface) in surfaces.list.iter().enumerate() {
-            let cuts = Cuts {
-                segments: &surface.contacts,
-                size: settings.patch_length(surfaces.extent.max(surface.extent())),
-                tolerance: surfaces.tolerance,
-            };
-            for piece in convex_pieces(&surface.rings, &cuts) {
+            for piece in pieces((surfaces, surface), settings) {
                 mesh.add_patch(surfaces, number as u32, &piece);
             }
         }
@@ -200,6 +196,19 @@ impl Mesh {
             next += 1;
         }
     }
+}
+
+/// The outlines of the patches of a surface.
+fn pieces((surfaces, surface): (&Surfaces, &Surface), settings: &Settings) -> Vec<Convex> {
+    let size = settings.patch_length(surfaces.extent.max(surface.extent()));
+    let cuts = Cuts { segments: &surface.contacts, size, tolerance: surfaces.tolerance };
+    convex_pieces(&surface.rings, &cuts)
+}
+
+/// How many patches each surface will be divided into: much quicker told than made.
+pub fn patch_counts(surfaces: &Surfaces, settings: &Settings) -> Vec<usize> {
+    let count = |surface| pieces((surfaces, surface), settings).len();
+    surfaces.list.par_iter().map(count).collect()
 }
 
 impl VertexIndex {

@@ -12,44 +12,37 @@ use crate::watch::{in_batches, within};
 /// Time for a rough look at all places: who has ended the work waits.
 const TIME: Duration = Duration::from_millis(700);
 
+/// Deepest level of elements in whose middle light may be another than between their corners.
+const COARSE: u32 = 1;
+
 /// Share of the golden section: its multiples are even over everything, wherever they end.
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
-/// Gives vertices that were not evaluated in time light: corners of patches by a few rays, all others from those.
+/// Gives vertices that were not evaluated in time light: corners of patches and the middles of elements that were
+/// hardly divided by a few rays, all others from those.
 ///
 /// Where even that takes too long, corners have what others of their patch have, or of their surface.
 pub(super) fn make_do(light: &PatchLight, mesh: &mut Mesh) {
-    let dark = dark_corners(mesh);
-    if !dark.is_empty() {
-        // What is between the corners is as dark; it is looked at if there is time.
-        let others = (0..mesh.vertices.len() as u32).map(VertexId);
-        let others: Vec<VertexId> = others.filter(|&v| mesh[v].direct.is_none()).collect();
-        let mut go_on = within(TIME);
-        look(light, mesh, &spread(&dark), &mut go_on);
-        let others: Vec<VertexId> =
-            others.into_iter().filter(|&v| mesh[v].direct.is_none()).collect();
-        look(light, mesh, &spread(&others), &mut go_on);
-        borrow(mesh);
-    }
+    let mut go_on = within(TIME);
+    let corners = mesh.patches.iter().flat_map(|patch| mesh[patch.root].corners.iter().copied());
+    let dark = dark(mesh, corners);
+    look(light, mesh, &dark, &mut go_on);
+    let coarse = mesh.leaves().filter(|&leaf| mesh[leaf].level <= COARSE);
+    let middles = coarse.filter_map(|leaf| mesh.find_middle(leaf));
+    let places = middles.flat_map(|middle| middle.edges.into_iter().chain([middle.centre]));
+    let dark = self::dark(mesh, places);
+    look(light, mesh, &dark, &mut go_on);
+    borrow(mesh);
     interpolate(mesh, DIRECT);
 }
 
-/// Corners of patches whose light is not known.
-fn dark_corners(mesh: &Mesh) -> Vec<VertexId> {
-    let corners = mesh.patches.iter().flat_map(|patch| mesh[patch.root].corners.iter().copied());
-    let mut dark: Vec<VertexId> = corners.filter(|&v| mesh[v].direct.is_none()).collect();
+/// Those of the vertices whose light is not known, in an order of which any beginning is spread over all.
+fn dark(mesh: &Mesh, vertices: impl Iterator<Item = VertexId>) -> Vec<VertexId> {
+    let mut dark: Vec<VertexId> = vertices.filter(|&v| mesh[v].direct.is_none()).collect();
     dark.sort_unstable();
     dark.dedup();
-    dark
-}
-
-/// The same in an order of which any beginning is spread over all.
-fn spread(vertices: &[VertexId]) -> Vec<VertexId> {
-    let mut order: Vec<(f64, VertexId)> = vertices
-        .iter()
-        .enumerate()
-        .map(|(k, &vertex)| ((k as f64 * GOLDEN).fract(), vertex))
-        .collect();
+    let mut order: Vec<(f64, VertexId)> =
+        dark.into_iter().enumerate().map(|(k, v)| ((k as f64 * GOLDEN).fract(), v)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
     order.into_iter().map(|(_, vertex)| vertex).collect()
 }

@@ -35,8 +35,12 @@ impl Shooting<'_, '_> {
 
     /// Share of the unshot light that meets the front of a surface, by rays from those that hold it.
     fn arriving(&self) -> f64 {
-        let held: Vec<f64> =
-            self.areas.iter().zip(&self.unshot).map(|(a, held)| a * held.abs().element_sum()).collect();
+        let held: Vec<f64> = self
+            .areas
+            .iter()
+            .zip(&self.unshot)
+            .map(|(a, held)| a * held.abs().element_sum())
+            .collect();
         let all: f64 = held.iter().sum();
         if all <= 0.0 {
             return 1.0;

@@ -33,6 +33,9 @@ use state::last_state;
 /// Links kept for later shots; beyond them, rows are made anew.
 const KEPT_LINKS: usize = 8_000_000;
 
+/// The same where there is little room, for each element that there may be: a third of what one takes.
+const LINKS_PER_ELEMENT: usize = 50;
+
 /// Light received and not yet shot.
 #[derive(Clone, Serialize, Deserialize)]
 struct Held {
@@ -51,6 +54,7 @@ pub(super) struct Shooting<'a, 'o> {
     /// By group.
     rows: Vec<Option<Row>>,
     kept: usize,
+    most_kept: usize,
     groups: &'a Groups,
     /// By group: its area, m².
     areas: Vec<f64>,
@@ -109,6 +113,7 @@ impl<'a, 'o> Shooting<'a, 'o> {
             rows: vec![None; groups.len()],
             groups,
             kept: 0,
+            most_kept: most_kept(settings),
             trees: mesh.trees(),
             pending: leaves_only(mesh, &light.direct),
             unshot: (0..groups.len()).map(unshot).collect(),
@@ -305,6 +310,12 @@ impl Released {
             Self::Even(radiosity) => *radiosity,
         }
     }
+}
+
+/// How many links may be kept.
+fn most_kept(settings: &Settings) -> usize {
+    let room = settings.max_elements.unwrap_or(usize::MAX).saturating_mul(LINKS_PER_ELEMENT);
+    room.min(KEPT_LINKS)
 }
 
 /// A part's share of the whole; of nothing, all.

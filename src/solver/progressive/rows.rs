@@ -1,6 +1,6 @@
 //! Rows of the exchange, made when they are needed.
 
-use super::{KEPT_LINKS, Shooting};
+use super::Shooting;
 use crate::form_factor::hemicube::Hemicube;
 use crate::mesh::PatchId;
 use crate::solver::transport::{Row, row};
@@ -33,13 +33,16 @@ impl Shooting<'_, '_> {
 
     /// Makes the rows that are missing of some groups; none if there has been enough before all are made.
     pub(super) fn make_rows(&mut self, shooters: &[usize]) {
-        if self.kept > KEPT_LINKS {
+        if self.kept > self.most_kept {
             self.rows.fill(None);
             self.kept = 0;
         }
         let missing: Vec<usize> =
             shooters.iter().copied().filter(|&shooter| self.rows[shooter].is_none()).collect();
-        let rows = self.rows_of(&missing, |row| row);
+        let rows = self.rows_of(&missing, |mut row| {
+            row.links.shrink_to_fit();
+            row
+        });
         if rows.len() < missing.len() {
             return;
         }
@@ -52,7 +55,11 @@ impl Shooting<'_, '_> {
     }
 
     /// What `take` keeps of the rows of some groups, in their order; of the first only, if there has been enough.
-    fn rows_of<R: Send>(&mut self, groups: &[usize], take: impl Fn(Row) -> R + Sync + Send) -> Vec<R> {
+    fn rows_of<R: Send>(
+        &mut self,
+        groups: &[usize],
+        take: impl Fn(Row) -> R + Sync + Send,
+    ) -> Vec<R> {
         let scene = (self.surfaces, self.mesh, self.groups);
         let (delta, targets, occluders) = (&self.delta, &self.targets, self.occluders);
         self.observer.map(
