@@ -146,7 +146,7 @@ pub(super) fn refine(
     let mut candidates: Vec<ElementId> =
         mesh.leaves().filter(|&e| may_be_divided(mesh, e)).collect();
     let lines = if settings.discontinuity_lines && settings.max_level > 0 {
-        discontinuities(world, mesh, &candidates)
+        discontinuities(world, mesh, &candidates, observer)
     } else {
         vec![Vec::new(); mesh.patches.len()]
     };
@@ -183,17 +183,23 @@ fn discontinuities(
     world: World<'_>,
     mesh: &Mesh,
     candidates: &[ElementId],
+    observer: &mut Observer<'_>,
 ) -> Vec<Vec<Discontinuity>> {
-    let mut is_wanted = vec![false; mesh.patches.len()];
-    for &element in candidates {
-        is_wanted[mesh[element].patch.index()] = true;
+    let mut wanted: Vec<PatchId> = candidates.iter().map(|&element| mesh[element].patch).collect();
+    wanted.sort_unstable();
+    wanted.dedup();
+    // Where there has been enough, nothing will be divided.
+    let _ = observer.begin(Phase::Lines, 0.0..1.0);
+    let found = observer.map(
+        &wanted,
+        || (),
+        |(), &patch| refine::discontinuities((world.surfaces, mesh), patch, world.light),
+    );
+    let mut lines = vec![Vec::new(); mesh.patches.len()];
+    for (patch, found) in wanted.into_iter().zip(found) {
+        lines[patch.index()] = found;
     }
-    let lines = |(patch, is_wanted): (usize, bool)| {
-        let patch = PatchId(patch as u32);
-        is_wanted.then(|| refine::discontinuities((world.surfaces, mesh), patch, world.light))
-    };
-    let lines = is_wanted.into_par_iter().enumerate().map(lines);
-    lines.map(Option::unwrap_or_default).collect()
+    lines
 }
 
 /// Black surfaces show no light, so nothing is gained by dividing them.

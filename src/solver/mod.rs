@@ -33,7 +33,7 @@ use serde::{Deserialize, Serialize};
 use crate::colour::Rgb;
 use crate::direct::{Lamps, PatchLight};
 use crate::error::{Error, Result};
-use crate::mesh::Mesh;
+use crate::mesh::{ElementId, Mesh};
 use crate::refine::{Oracle, mean_radiosity};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
@@ -326,11 +326,17 @@ impl Exchange {
         }
     }
 
-    /// Gives all vertices the mean of the elements around them, and the ambient light.
+    /// Gives corners of leaves the mean of the elements around them, and the ambient light; all other vertices
+    /// what is between.
     fn spread(&self, mesh: &mut Mesh) {
         let indirect = self.light.indirect_at_vertices(mesh);
-        for (vertex, indirect) in mesh.vertices.iter_mut().zip(indirect) {
-            vertex.indirect = Some(indirect + self.ambient);
+        mesh.vertices.iter_mut().for_each(|vertex| vertex.indirect = None);
+        let leaves: Vec<ElementId> = mesh.leaves().collect();
+        for corner in
+            leaves.into_iter().flat_map(|leaf| mesh[leaf].corners.clone()).collect::<Vec<_>>()
+        {
+            mesh.vertices[corner.index()].indirect = Some(indirect[corner.index()] + self.ambient);
         }
+        interpolate(mesh, REFLECTED);
     }
 }

@@ -17,35 +17,35 @@ impl Shooting<'_, '_> {
     /// The mean unshot radiosity times 1 / (1 - mean reflectance), as in Cohen et al. 1988: exact for
     /// a closed room that is all alike.
     pub(in crate::solver) fn ambient(&self) -> Rgb {
-        self.ambient_if(1.0)
+        let area = self.area();
+        let share = |patch: &Patch| patch.reflectance * (patch.area / area);
+        let reflectance: Rgb = self.mesh.patches.iter().map(share).sum();
+        self.unshot_power() / area / (Rgb::ONE - reflectance)
     }
 
-    /// The same where some light finds its way out: less, since that gives rise to nothing.
+    /// The same where not all is alike: of the light, what finds its way out gives rise to nothing, and the rest is
+    /// reflected by what it meets.
     pub(in crate::solver) fn ambient_of_the_rest(&self) -> Rgb {
-        self.ambient_if(self.arriving())
+        let [arriving, reflected] = self.fate();
+        self.unshot_power() / self.area() * arriving / (Rgb::ONE - reflected)
     }
 
-    /// The same if this share of all light that leaves a surface arrives at another.
-    fn ambient_if(&self, arriving: f64) -> Rgb {
-        let area: f64 = self.mesh.patches.iter().map(|patch| patch.area).sum();
-        let reflectance: Rgb =
-            self.mesh.patches.iter().map(|patch| patch.reflectance * (patch.area / area)).sum();
-        self.unshot_power() / area * arriving / (Rgb::ONE - reflectance * arriving)
+    fn area(&self) -> f64 {
+        self.mesh.patches.iter().map(|patch| patch.area).sum()
     }
 
-    /// Share of the unshot light that meets the front of a surface, by rays from those that hold it.
-    fn arriving(&self) -> f64 {
-        let held: Vec<f64> = self
-            .areas
-            .iter()
-            .zip(&self.unshot)
-            .map(|(a, held)| a * held.abs().element_sum())
-            .collect();
+    /// Shares of the unshot light that meet the front of a surface, and that are reflected there, by rays from those
+    /// that hold it.
+    fn fate(&self) -> [Rgb; 2] {
+        let strength = |(area, held): (&f64, &Rgb)| area * held.abs().element_sum();
+        let held: Vec<f64> = self.areas.iter().zip(&self.unshot).map(strength).collect();
         let all: f64 = held.iter().sum();
         if all <= 0.0 {
-            return 1.0;
+            return [Rgb::ZERO; 2];
         }
-        let (mut group, mut passed, mut met) = (0, held[0], 0);
+        let reflectances = self.reflectances_of_surfaces();
+        let (mut group, mut passed) = (0, held[0]);
+        let [mut arriving, mut reflected] = [Rgb::ZERO; 2];
         for ray in 0..RAYS {
             let wanted = all * (ray as f64 + 0.5) / RAYS as f64;
             while passed < wanted && group + 1 < held.len() {
@@ -53,17 +53,31 @@ impl Shooting<'_, '_> {
                 passed += held[group];
             }
             let members = self.groups.members(group);
-            met += usize::from(self.meets_a_front(&self.mesh[members[ray % members.len()]], ray));
+            if let Some(surface) = self.met(&self.mesh[members[ray % members.len()]], ray) {
+                arriving += Rgb::ONE / RAYS as f64;
+                reflected += reflectances[surface] / RAYS as f64;
+            }
         }
-        met as f64 / RAYS as f64
+        [arriving, reflected]
     }
 
-    /// Whether one of the rays that a patch's light may take meets a front.
-    fn meets_a_front(&self, patch: &Patch, ray: usize) -> bool {
+    /// By surface, its mean reflectance with all textures.
+    fn reflectances_of_surfaces(&self) -> Vec<Rgb> {
+        let mut sums = vec![(Rgb::ZERO, 0.0); self.surfaces.list.len()];
+        for patch in &self.mesh.patches {
+            let (sum, area) = &mut sums[patch.surface as usize];
+            *sum += patch.reflectance * patch.area;
+            *area += patch.area;
+        }
+        sums.into_iter().map(|(sum, area)| sum / area.max(f64::MIN_POSITIVE)).collect()
+    }
+
+    /// The surface whose front one of the rays meets that a patch's light may take.
+    fn met(&self, patch: &Patch, ray: usize) -> Option<usize> {
         let middle = patch.corners.iter().sum::<DVec3>() / patch.corners.len() as f64;
-        let direction = cosine_direction(patch.normal, ray);
-        let met = self.occluders.first(middle, direction);
-        met.is_some_and(|met| met.front || self.surfaces.list[met.surface as usize].two_sided)
+        let met = self.occluders.first(middle, cosine_direction(patch.normal, ray))?;
+        let surface = met.surface as usize;
+        (met.front || self.surfaces.list[surface].two_sided).then_some(surface)
     }
 }
 
