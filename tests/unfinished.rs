@@ -74,10 +74,10 @@ fn what_is_ended_early_is_coarse_but_not_wrong(name: &str, tolerance: f64) {
 
 #[test]
 fn a_box_ended_early_is_coarse_but_not_wrong() {
-    what_is_ended_early_is_coarse_but_not_wrong("cornell-box.obj", 0.15);
+    what_is_ended_early_is_coarse_but_not_wrong("cornell-box.obj", 0.05);
 }
 
 #[test]
 fn an_office_ended_early_is_coarse_but_not_wrong() {
-    what_is_ended_early_is_coarse_but_not_wrong("office.obj", 0.15);
+    what_is_ended_early_is_coarse_but_not_wrong("office.obj", 0.1);
 }

@@ -110,29 +110,20 @@ Examples:
 
 impl Solve {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        let memory = self.limits.memory();
-        let settings = self.accuracy.settings();
-        settings.validate()?;
+        self.accuracy.settings().validate()?;
         self.check()?;
         self.report.talk.use_threads()?;
         let interrupt = Interrupt::listen().within(self.limits.time());
         let mut meter = Meter::new(&self.report.talk);
         self.warn_of_nothing(&meter);
 
-        memory.check_file(self.scene.bytes())?;
         let (mut scene, camera) = self.read(&mut meter)?;
         let needs = self.needs(&scene);
-        memory.check_needs(&needs, "for the scene's faces")?;
         let surfaces = surfaces(&mut scene, &mut meter);
         let places = self.grid.places(&surfaces)?;
         let atlas = self.lightmap.atlas(&surfaces)?;
+        let settings = self.settings(&surfaces, needs, &meter)?;
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
-        settings.validate_for(surfaces.area(), surfaces.extent)?;
-        meter.explain(&settings_record.to_string());
-        let estimate = Estimate::new(&surfaces, &settings, needs);
-        memory.check_needs(&estimate.least(), "for the patches of the scene")?;
-        meter.tell(&estimate.to_string());
-        let settings = Settings { max_elements: memory.elements(&estimate.least()), ..settings };
         let lighting = Lighting {
             surfaces: &surfaces,
             settings: &settings,
@@ -182,6 +173,25 @@ impl Solve {
         })
     }
 
+    /// The settings, with as many elements as there is room for; tells what is asked for, and what to expect of it.
+    fn settings(
+        &self,
+        surfaces: &Surfaces,
+        needs: Needs,
+        meter: &Meter,
+    ) -> Result<Settings, Error> {
+        let memory = self.limits.memory();
+        let limited =
+            |needs| Settings { max_elements: memory.elements(&needs), ..self.accuracy.settings() };
+        let settings = limited(needs);
+        settings.validate_for(surfaces.area(), surfaces.extent)?;
+        meter.explain(&SettingsRecord::new(&settings, surfaces.extent).to_string());
+        let estimate = Estimate::new(surfaces, &settings, needs);
+        memory.check_needs(&estimate.least(), "for the patches of the scene")?;
+        meter.tell(&estimate.to_string());
+        Ok(limited(estimate.least()))
+    }
+
     /// What takes memory before there are patches, and at the end.
     fn needs(&self, scene: &Scene) -> Needs {
         let bytes = |texture: &Texture| size_of_val(texture.texels.as_slice());
@@ -196,7 +206,10 @@ impl Solve {
 
     fn read(&self, meter: &mut Meter) -> Result<(Scene, CameraChoice), Failure> {
         meter.begin("reading");
+        let memory = self.limits.memory();
+        memory.check_file(self.scene.bytes())?;
         let scene = self.scene.load_lit()?;
+        memory.check_needs(&self.needs(&scene), "for the scene's faces")?;
         let camera = self.picture.choose_camera(&scene.cameras)?;
         for note in &scene.notes {
             meter.tell(&format!("note: {note}"));
