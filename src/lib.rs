@@ -64,6 +64,7 @@ pub mod colour;
 pub mod error;
 mod file;
 pub mod settings;
+mod watch;
 
 pub mod scene;
 pub mod surface;

@@ -4,11 +4,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The library's modules in flow order; those in one entry do not use each other.
-const FLOW: [&[&str]; 18] = [
+const FLOW: [&[&str]; 19] = [
     &["colour"],
     &["error"],
     &["file"],
     &["settings"],
+    &["watch"],
     &["scene"],
     &["surface"],
     &["mesh"],

@@ -33,7 +33,7 @@ fn lines_bound_umbra_and_penumbra() {
     let surfaces = floor_with(square);
     let mesh = Mesh::new(&surfaces, &Settings { patch_size: Length::Metres(9.0), ..coarse() });
     let (lamps, occluders) = (Lamps::new(&surfaces, &mesh), Occluders::new(&surfaces));
-    let lines = PatchLight::new(lamps, occluders, &mesh).lines(&mesh, PatchId(0));
+    let lines = PatchLight::new(lamps, occluders, &mesh).lines(&mesh, PatchId(0), 0.0);
     let lines: Vec<[DVec3; 2]> = lines.iter().map(|line| line.ends).collect();
     assert!(lines.iter().flatten().all(|p| p.y.abs() < 1e-12), "lines lie on the floor");
     // At half the height, an edge at x throws its shadow from a lamp at u to 2x - u.

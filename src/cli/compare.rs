@@ -21,7 +21,7 @@ use super::{console, outputs};
 ///
 /// Errors are against a reference that no mesh has had a part in: at some 9000 places, direct light exactly and
 /// reflected light by paths, with a standard error. All runs share solver, direct light and threads. Ctrl-C ends
-/// the work after the current run and reports what there is.
+/// the work and reports the runs that are done.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Compare {

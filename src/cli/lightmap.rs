@@ -40,6 +40,11 @@ impl LightmapOptions {
         self.lightmap.and(outputs.first()).map(|output| output.with_extension("lightmap.glb"))
     }
 
+    /// Texels of its maps.
+    pub(crate) fn texels(&self) -> u64 {
+        self.lightmap.map_or(0, |size| u64::from(size).pow(2))
+    }
+
     /// The place of every surface in the maps, found before long work.
     pub(crate) fn atlas(&self, surfaces: &Surfaces) -> Result<Option<Atlas>> {
         self.lightmap.map(|size| Atlas::new(surfaces, size)).transpose()

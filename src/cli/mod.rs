@@ -14,6 +14,7 @@ mod info;
 mod interrupt;
 mod lighting;
 mod lightmap;
+mod memory;
 mod meter;
 mod options;
 mod outputs;

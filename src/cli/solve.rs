@@ -8,6 +8,7 @@ use radiosity::export::{self, Stamp};
 use radiosity::lightmap::Atlas;
 use radiosity::mesh::Direct;
 use radiosity::render::{self, Solved, Subject};
+use radiosity::scene::Texture;
 use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
 use radiosity::{Error, Scene, Settings, Solution, Surfaces, surfaces_of};
@@ -18,6 +19,7 @@ use super::grid::GridOptions;
 use super::interrupt::Interrupt;
 use super::lighting::{Lighting, Lit, RelightOptions};
 use super::lightmap::LightmapOptions;
+use super::memory::Needs;
 use super::meter::Meter;
 use super::options::{
     AccuracyOptions, CameraChoice, CheckpointOptions, HINT, LimitOptions, PictureOptions,
@@ -32,7 +34,8 @@ use super::{console, outputs};
 ///
 /// Surfaces are diffuse. Light straight from emitters is exact and refines the mesh where shadows
 /// and gradients ask for it; reflected light is exchanged between patches until almost nothing is
-/// left unshot. Ctrl-C ends the work after the current shot and still writes everything.
+/// left unshot. Ctrl-C and SIGTERM end the work early and still
+/// write everything.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Solve {
@@ -107,8 +110,7 @@ Examples:
 
 impl Solve {
     pub(crate) fn run(self) -> Result<(), Failure> {
-        let settings = self.limits.limited(self.accuracy.settings());
-        settings.validate()?;
+        self.accuracy.settings().validate()?;
         self.check()?;
         self.report.talk.use_threads()?;
         let interrupt = Interrupt::listen().within(self.limits.time());
@@ -116,12 +118,12 @@ impl Solve {
         self.warn_of_nothing(&meter);
 
         let (mut scene, camera) = self.read(&mut meter)?;
+        let needs = self.needs(&scene);
         let surfaces = surfaces(&mut scene, &mut meter);
         let places = self.grid.places(&surfaces)?;
         let atlas = self.lightmap.atlas(&surfaces)?;
+        let settings = self.settings(&surfaces, needs, &meter)?;
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
-        settings.validate_for(surfaces.area(), surfaces.extent)?;
-        self.announce((&surfaces, &settings), &settings_record, &meter);
         let lighting = Lighting {
             surfaces: &surfaces,
             settings: &settings,
@@ -171,20 +173,43 @@ impl Solve {
         })
     }
 
-    /// What is asked for, and what to expect of it.
-    fn announce(
+    /// The settings, with as many elements as there is room for; tells what is asked for, and what to expect of it.
+    fn settings(
         &self,
-        (surfaces, settings): (&Surfaces, &Settings),
-        record: &SettingsRecord,
+        surfaces: &Surfaces,
+        needs: Needs,
         meter: &Meter,
-    ) {
-        meter.explain(&record.to_string());
-        meter.tell(&Estimate::new(surfaces, settings).to_string());
+    ) -> Result<Settings, Error> {
+        let memory = self.limits.memory();
+        let limited =
+            |needs| Settings { max_elements: memory.elements(&needs), ..self.accuracy.settings() };
+        let settings = limited(needs);
+        settings.validate_for(surfaces.area(), surfaces.extent)?;
+        meter.explain(&SettingsRecord::new(&settings, surfaces.extent).to_string());
+        let estimate = Estimate::new(surfaces, &settings, needs);
+        memory.check_needs(&estimate.least(), "for the patches of the scene")?;
+        meter.tell(&estimate.to_string());
+        Ok(limited(estimate.least()))
+    }
+
+    /// What takes memory before there are patches, and at the end.
+    fn needs(&self, scene: &Scene) -> Needs {
+        let bytes = |texture: &Texture| size_of_val(texture.texels.as_slice());
+        Needs {
+            faces: scene.faces.len(),
+            pixels: if self.image.is_empty() { 0 } else { self.picture.pixels() },
+            texels: self.lightmap.texels(),
+            texture_bytes: scene.textures.iter().map(bytes).sum::<usize>() as u64,
+            ..Needs::default()
+        }
     }
 
     fn read(&self, meter: &mut Meter) -> Result<(Scene, CameraChoice), Failure> {
         meter.begin("reading");
+        let memory = self.limits.memory();
+        memory.check_file(self.scene.bytes())?;
         let scene = self.scene.load_lit()?;
+        memory.check_needs(&self.needs(&scene), "for the scene's faces")?;
         let camera = self.picture.choose_camera(&scene.cameras)?;
         for note in &scene.notes {
             meter.tell(&format!("note: {note}"));

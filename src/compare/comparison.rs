@@ -12,10 +12,14 @@ use super::run::{Family, Run};
 use super::verdict::Verdict;
 use crate::error::{Error, Result};
 use crate::scene::Scene;
+use crate::solver::Phase;
 use crate::surface::{Surfaces, surfaces_of};
 
 /// Elements of all solutions that may be kept together; beyond, only those to be shown are.
 const KEPT: usize = 1_500_000;
+
+/// Phases of a solution, which are taken to be as long as each other.
+const PHASES: f64 = Phase::Gathering as u8 as f64 + 1.0;
 
 /// A step of the work, told to the observer.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,8 +52,7 @@ pub struct Comparison {
     pub interrupted: bool,
 }
 
-/// Compares meshes of a scene; when `observe` breaks off, what is under way is brought to its end and no run
-/// begins any more.
+/// Compares meshes of a scene; when `observe` breaks off, the run under way is given up and no other begins.
 ///
 /// # Errors
 /// Those of [`solve`](crate::solver::solve) and of [`Reference::load`]; when it is stopped before the first run has
@@ -141,11 +144,10 @@ impl Series<'_> {
         }
         let scene = (self.surfaces, self.seconds);
         let run = Run::new(scene, (family, knob), &settings, self.reference, &mut |progress| {
-            // The phases take about as long.
-            let done = (f64::from(progress.phase as u8) + progress.done) / 3.0;
-            let _ = observer.tell(&name, done);
+            let done = (f64::from(progress.phase as u8) + progress.done) / PHASES;
+            observer.tell(&name, done)
         })?;
-        self.runs.push(run);
+        self.runs.extend(run);
         self.spare_memory();
         Ok(())
     }

@@ -121,7 +121,7 @@ pub struct Run {
 }
 
 impl Run {
-    /// Solves and measures; `seconds` is what surfaces took. `observe` cannot stop it.
+    /// Solves and measures; `seconds` is what surfaces took. Nothing of it, if `observe` has broken off by then.
     ///
     /// # Errors
     /// Those of [`solve`].
@@ -130,15 +130,17 @@ impl Run {
         (family, knob): (Family, f64),
         settings: &Settings,
         reference: &Reference,
-        observe: &mut dyn FnMut(&Progress),
-    ) -> Result<Self> {
+        observe: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    ) -> Result<Option<Self>> {
         let peak = Peak::start();
         let mut clock = Clock::new(seconds);
         let solution = solve(surfaces, settings, |progress| {
             clock.enter(progress.phase);
-            observe(progress);
-            ControlFlow::Continue(())
+            observe(progress)
         })?;
+        if solution.stop == Stop::Cancelled {
+            return Ok(None);
+        }
         clock.leave();
         let mesh = reconstruct(surfaces, &solution);
         let seconds = clock.seconds();
@@ -148,7 +150,7 @@ impl Run {
         let reflects = |leaf: ElementId| {
             surfaces.list[leaves.surface_of(leaf)].reflectance.max_element() > 0.0
         };
-        Ok(Self {
+        Ok(Some(Self {
             family,
             knob,
             settings: settings.clone(),
@@ -171,7 +173,7 @@ impl Run {
             angles: mesh.angles(),
             hanging: mesh.hanging,
             lit: Some(Lit { solution, mesh }),
-        })
+        }))
     }
 }
 
@@ -202,7 +204,7 @@ impl Clock {
     fn switch(&mut self, next: Option<Phase>) {
         let now = Instant::now();
         *match self.phase {
-            Some(Phase::Direct) => &mut self.seconds.direct,
+            Some(Phase::Lamps | Phase::Direct | Phase::Lines) => &mut self.seconds.direct,
             Some(Phase::Shooting) => &mut self.seconds.reflected,
             Some(Phase::Gathering) => &mut self.seconds.gathering,
             None => &mut self.seconds.triangles,

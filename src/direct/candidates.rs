@@ -4,6 +4,8 @@
 //! So a lamp behind a wall is dropped once for all behind that wall, and what a patch must look at is a part of what
 //! its surroundings had to.
 
+use std::ops::ControlFlow;
+
 use glam::DVec3;
 use obvhs::bvh2::Bvh2;
 
@@ -11,12 +13,16 @@ use super::{Lamp, Lamps};
 use crate::mesh::{Mesh, Patch, PatchId};
 use crate::visibility::hierarchy::hierarchy;
 use crate::visibility::{Blockers, Body, Facet, Occluders};
+use crate::watch::in_batches;
 
 /// Patches longer than this share of the longest are regions of their own.
 const LARGE: f64 = 0.25;
 
 /// Most patches that have their candidates in common.
 const TOGETHER: usize = 16;
+
+/// Patches whose candidates are looked for between two questions whether to go on.
+const AT_ONCE: usize = 64;
 
 /// A lamp that can shine on a region.
 #[derive(Clone, Debug)]
@@ -35,7 +41,13 @@ pub(super) struct Candidates {
 }
 
 impl Candidates {
-    pub(super) fn new(lamps: &Lamps, occluders: &Occluders, mesh: &Mesh) -> Self {
+    /// Looks until `observe`, told the share done, breaks off; what is then left has what holds around it.
+    pub(super) fn new(
+        lamps: &Lamps,
+        occluders: &Occluders,
+        mesh: &Mesh,
+        observe: impl FnMut(f64) -> ControlFlow<()>,
+    ) -> Self {
         let sizes = mesh.patches.iter().map(|patch| bounds(&[patch]));
         let longest = sizes.map(|(low, high)| low.distance(high)).fold(0.0, f64::max);
         let boxes: Vec<_> = mesh.patches.iter().map(|patch| boxed(bounds(&[patch]))).collect();
@@ -44,10 +56,17 @@ impl Candidates {
         let all = (0..lamps.list.len() as u32)
             .map(|lamp| Candidate { lamp, blockers: occluders.all() })
             .collect();
-        let found = if mesh.patches.is_empty() { Vec::new() } else { finder.descend(0, all) };
+        let mut parts = Vec::new();
+        if !mesh.patches.is_empty() {
+            finder.divide(0, all, &mut parts);
+        }
+        let descend = |(): &mut (), (node, around): &Part| finder.descend(*node, around);
+        let mut found: Vec<Vec<Region>> = in_batches(&parts, || (), descend, observe);
+        let rest = parts.drain(found.len()..);
+        found.extend(rest.map(|(node, around)| vec![(finder.patches_under(node), around)]));
         let mut of = vec![0; mesh.patches.len()];
-        let mut regions = Vec::with_capacity(found.len());
-        for (patches, candidates) in found {
+        let mut regions = Vec::new();
+        for (patches, candidates) in found.into_iter().flatten() {
             patches.iter().for_each(|patch| of[patch.index()] = regions.len() as u32);
             regions.push(candidates);
         }
@@ -59,6 +78,9 @@ impl Candidates {
         self.regions.get(self.of[patch.index()] as usize).map_or(&[], Vec::as_slice)
     }
 }
+
+/// A node of the patches' tree, and the candidates of what is around it.
+type Part = (u32, Vec<Candidate>);
 
 /// Patches that have their candidates in common, and these.
 type Region = (Vec<PatchId>, Vec<Candidate>);
@@ -73,39 +95,48 @@ struct Finder<'a> {
 }
 
 impl Finder<'_> {
+    /// The candidates of parts of the tree under a node, from those of the node around it.
+    fn divide(&self, node: u32, around: Vec<Candidate>, parts: &mut Vec<Part>) {
+        let own = &self.tree.nodes[node as usize];
+        let patches = self.patches_under(node);
+        if own.is_leaf() || patches.len() <= AT_ONCE {
+            return parts.push((node, around));
+        }
+        let here = self.narrowed(&around, &patches);
+        self.divide(own.first_index, here.clone(), parts);
+        self.divide(own.first_index + 1, here, parts);
+    }
+
     /// The regions under a node of the patches' tree, from the candidates of the node around it.
-    fn descend(&self, node: u32, around: Vec<Candidate>) -> Vec<Region> {
+    fn descend(&self, node: u32, around: &[Candidate]) -> Vec<Region> {
         let patches = self.patches_under(node);
         let own = &self.tree.nodes[node as usize];
-        let all: Vec<&Patch> = patches.iter().map(|&patch| &self.mesh[patch]).collect();
-        let (low, high) = bounds(&all);
+        let (low, high) = self.bounds(&patches);
         let is_small = low.distance(high) <= 2.0 * self.large && patches.len() <= TOGETHER;
         if patches.len() > 1 && !own.is_leaf() && !is_small {
-            let here = self.narrowed(&around, &all, &Body::cuboid(low, high));
-            drop(around);
-            let first = own.first_index;
-            let (mut regions, more) = rayon::join(
-                || self.descend(first, here.clone()),
-                || self.descend(first + 1, here.clone()),
-            );
-            regions.extend(more);
+            let here = self.narrowed(around, &patches);
+            let mut regions = self.descend(own.first_index, &here);
+            regions.extend(self.descend(own.first_index + 1, &here));
             return regions;
         }
         let (large, small): (Vec<PatchId>, Vec<PatchId>) =
             patches.into_iter().partition(|&patch| self.is_large(patch));
-        let mut regions: Vec<Region> = large
-            .into_iter()
-            .map(|patch| (vec![patch], self.of_patch(&around, &self.mesh[patch])))
-            .collect();
-        if let &[patch] = small.as_slice() {
-            regions.push((vec![patch], self.of_patch(&around, &self.mesh[patch])));
-        } else if !small.is_empty() {
-            let all: Vec<&Patch> = small.iter().map(|&patch| &self.mesh[patch]).collect();
-            let (low, high) = bounds(&all);
-            let candidates = self.narrowed(&around, &all, &Body::cuboid(low, high));
-            regions.push((small, candidates));
+        let alone = |patch: PatchId| (vec![patch], self.of_patch(around, &self.mesh[patch]));
+        let mut regions: Vec<Region> = large.into_iter().map(alone).collect();
+        match small.as_slice() {
+            [] => {}
+            &[patch] => regions.push(alone(patch)),
+            _ => {
+                let candidates = self.narrowed(around, &small);
+                regions.push((small, candidates));
+            }
         }
         regions
+    }
+
+    fn bounds(&self, patches: &[PatchId]) -> (DVec3, DVec3) {
+        let patches: Vec<&Patch> = patches.iter().map(|&patch| &self.mesh[patch]).collect();
+        bounds(&patches)
     }
 
     fn is_large(&self, patch: PatchId) -> bool {
@@ -119,12 +150,16 @@ impl Finder<'_> {
         of_polygon((self.lamps, self.occluders), around, receiver)
     }
 
-    fn narrowed(&self, around: &[Candidate], patches: &[&Patch], body: &Body) -> Vec<Candidate> {
+    /// Of the candidates of what is around some patches, those of the patches together.
+    fn narrowed(&self, around: &[Candidate], patches: &[PatchId]) -> Vec<Candidate> {
+        let (low, high) = self.bounds(patches);
         let reaching = around.iter().filter(|candidate| {
             let lamp = &self.lamps.list[candidate.lamp as usize];
-            patches.iter().any(|p| lamp.may_reach(Facet::new(&p.corners, p.normal)))
+            let reaches = |patch: &Patch| lamp.may_reach(Facet::new(&patch.corners, patch.normal));
+            patches.iter().any(|&patch| reaches(&self.mesh[patch]))
         });
-        unhidden((self.lamps, self.occluders), reaching, body, Lamp::body)
+        let body = Body::cuboid(low, high);
+        unhidden((self.lamps, self.occluders), reaching, &body, Lamp::body)
     }
 
     fn patches_under(&self, node: u32) -> Vec<PatchId> {

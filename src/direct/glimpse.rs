@@ -47,7 +47,7 @@ impl Lamps {
 }
 
 /// A place on a convex polygon, even by area, from two numbers even in 0..1; and the polygon's area, m².
-fn place_on(polygon: &[DVec3], [u, v]: [f64; 2]) -> (DVec3, f64) {
+pub(super) fn place_on(polygon: &[DVec3], [u, v]: [f64; 2]) -> (DVec3, f64) {
     let first = polygon[0];
     let fan = || polygon.windows(2).skip(1).map(|pair| [pair[0] - first, pair[1] - first]);
     let area = |[a, b]: [DVec3; 2]| a.cross(b).length() / 2.0;

@@ -11,6 +11,7 @@ mod patch_light;
 mod pool;
 mod punctual;
 mod rims;
+mod rough;
 mod sampling;
 mod sky;
 mod tally;

@@ -2,6 +2,7 @@
 //! is worth.
 
 use std::borrow::Cow;
+use std::ops::ControlFlow;
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -76,7 +77,17 @@ struct Tolerated {
 impl PatchLight {
     /// The light of `lamps` on the patches of `mesh`, whatever their elements: exact, but for crowds of occluders.
     pub fn new(lamps: Lamps, occluders: Occluders, mesh: &Mesh) -> Self {
-        let candidates = Candidates::new(&lamps, &occluders, mesh);
+        Self::observed(lamps, occluders, mesh, |_| ControlFlow::Continue(()))
+    }
+
+    /// The same; `observe` is told the share done. When it breaks off, the light of the rest takes longer to evaluate.
+    pub fn observed(
+        lamps: Lamps,
+        occluders: Occluders,
+        mesh: &Mesh,
+        observe: impl FnMut(f64) -> ControlFlow<()>,
+    ) -> Self {
+        let candidates = Candidates::new(&lamps, &occluders, mesh, observe);
         let rims = Rims::new(&occluders);
         let normals = mesh.patches.iter().map(|patch| patch.normal).collect();
         Self { lamps, occluders, candidates, normals, rims, tolerated: Tolerated::default() }

@@ -232,6 +232,19 @@ impl Mesh {
     }
 }
 
+/// The outlines of the patches of a surface.
+fn outlines((surfaces, surface): (&Surfaces, &Surface), settings: &Settings) -> Vec<Convex> {
+    let size = settings.patch_length(surfaces.extent.max(surface.extent()));
+    let cuts = Cuts { segments: &surface.contacts, size, tolerance: surfaces.tolerance };
+    convex_pieces(&surface.rings, &cuts)
+}
+
+/// How many patches each surface will be divided into: much quicker told than made.
+pub fn patch_counts(surfaces: &Surfaces, settings: &Settings) -> Vec<usize> {
+    let count = |surface| outlines((surfaces, surface), settings).len();
+    surfaces.list.par_iter().map(count).collect()
+}
+
 impl VertexIndex {
     fn new(surfaces: &Surfaces) -> Self {
         let tolerance = surfaces.tolerance;
@@ -247,11 +260,6 @@ impl VertexIndex {
     /// The pieces of a surface, in the order of its patches.
     fn pieces(&self, surfaces: &Surfaces, number: u32, settings: &Settings) -> Vec<Piece> {
         let surface = &surfaces.list[number as usize];
-        let cuts = Cuts {
-            segments: &surface.contacts,
-            size: settings.patch_length(surfaces.extent.max(surface.extent())),
-            tolerance: self.tolerance,
-        };
         let contacts = &self.sheets[number as usize].contacts;
         let flat = |segment: &Segment| boxes::around(segment.map(|p| p.extend(0.0)));
         let tree = Tree::new(contacts.iter().map(flat).collect());
@@ -260,7 +268,7 @@ impl VertexIndex {
             contacts: touching((contacts, &tree), &outline, self.tolerance),
             outline,
         };
-        convex_pieces(&surface.rings, &cuts).into_iter().map(piece).collect()
+        outlines((surfaces, surface), settings).into_iter().map(piece).collect()
     }
 }
 

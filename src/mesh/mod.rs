@@ -16,6 +16,7 @@ use crate::colour::Rgb;
 use crate::surface::Plane;
 use crate::surface::polygon::{self, Convex};
 
+pub use build::patch_counts;
 pub use ids::{ElementId, PatchId, VertexId};
 pub use split::{Crossing, Middle, Split};
 pub use statistics::{Divided, SizeBin};

@@ -105,7 +105,7 @@ pub fn render(mesh: &TriMesh, camera: &Camera, options: &RenderOptions) -> Pictu
 /// exact where it is shown, not interpolated.
 ///
 /// `observe` is told how much is done, 0..=1; when it breaks off, the rest of the picture is
-/// interpolated.
+/// interpolated, and its edges are not smoothed.
 pub fn render_solved(
     subject: Subject<'_>,
     camera: &Camera,

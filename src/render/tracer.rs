@@ -4,6 +4,7 @@
 //! of the interpolated picture differ from what is beside them, at all samples.
 
 use std::ops::{ControlFlow, Range};
+use std::time::Instant;
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -15,13 +16,11 @@ use super::rays::Rays;
 use super::shade::{Gather, Shade};
 use crate::colour::Rgb;
 use crate::scene::Camera;
+use crate::watch::Pace;
 
 /// Samples of a pixel and of those beside it may differ by this share of their mean before the pixel
 /// gets all of its samples: about three steps of an 8-bit picture.
 const SMOOTH: f64 = 0.03;
-
-/// Pixels between two questions whether to go on.
-const BATCH: usize = 2048;
 
 /// Means over a pixel.
 #[derive(Clone, Copy, Debug, Default)]
@@ -63,11 +62,11 @@ impl<'a> Tracer<'a> {
         let count = self.options.width as usize * self.options.height as usize;
         let (first, rest) = places_of_samples(self.options.samples.max(1));
         let all: Vec<usize> = (0..count).collect();
-        let mut work = Work { tracer: &self, gather, observe };
+        let mut work = Work { tracer: &self, gather, observe, is_over: false };
         if rest.is_empty() {
             return work.sample(&all, &first, 0.0..1.0);
         }
-        let mut pixels = work.batches(&all, 0.0..0.1, |index, _| self.pixel(index, &first, None));
+        let mut pixels = work.pixels(&all, &first, 0.0..0.1);
         if gather.is_some() {
             let changes = work.changes(&all, first[first.len() / 2], 0.1..0.5);
             pixels.iter_mut().zip(changes).for_each(|(pixel, change)| pixel.change(change));
@@ -80,8 +79,10 @@ impl<'a> Tracer<'a> {
             rough.into_iter().zip(found).for_each(|(index, pixel)| pixels[index] = pixel);
         } else {
             let share = rest.len() as f64 / (first.len() + rest.len()) as f64;
-            let found = work.sample(&rough, &rest, 0.1..1.0);
-            rough.into_iter().zip(found).for_each(|(index, more)| pixels[index].add(&more, share));
+            // Pixels for which there is no time stay as they are.
+            for (index, more) in rough.iter().zip(work.more(&rough, &rest, 0.1..1.0)) {
+                pixels[*index].add(&more, share);
+            }
         }
         pixels
     }
@@ -181,35 +182,57 @@ struct Work<'a, 'b> {
     tracer: &'a Tracer<'a>,
     gather: Gather<'a>,
     observe: &'b mut dyn FnMut(f64) -> ControlFlow<()>,
+    /// True once told to stop: what is still to be done must be quick.
+    is_over: bool,
 }
 
 impl<'a> Work<'a, '_> {
     /// Pixels by the samples at `places`, told as a part of the whole.
     fn sample(&mut self, pixels: &[usize], places: &[Place], part: Range<f64>) -> Vec<Pixel> {
         let tracer = self.tracer;
-        self.batches(pixels, part, |index, gather| tracer.pixel(index, places, gather))
+        self.batches(pixels, part, |index, gather, _| tracer.pixel(index, places, gather))
+    }
+
+    /// All pixels by the samples at `places` without light anew; by one of them when told to stop.
+    fn pixels(&mut self, pixels: &[usize], places: &[Place], part: Range<f64>) -> Vec<Pixel> {
+        let tracer = self.tracer;
+        self.batches(pixels, part, |index, _, is_over| {
+            tracer.pixel(index, if is_over { &places[..1] } else { places }, None)
+        })
+    }
+
+    /// More samples without light anew, of the first of the pixels only when told to stop.
+    fn more(&mut self, pixels: &[usize], places: &[Place], part: Range<f64>) -> Vec<Pixel> {
+        let tracer = self.tracer;
+        let more = self.batches(pixels, part, |index, _, is_over| {
+            (!is_over).then(|| tracer.pixel(index, places, None))
+        });
+        more.into_iter().map_while(|pixel| pixel).collect()
     }
 
     /// Changes by evaluating light anew at one place of each pixel.
     fn changes(&mut self, pixels: &[usize], place: Place, part: Range<f64>) -> Vec<Rgb> {
         let tracer = self.tracer;
-        self.batches(pixels, part, |index, gather| tracer.change(index, place, gather))
+        self.batches(pixels, part, |index, gather, _| tracer.change(index, place, gather))
     }
 
     fn batches<T: Send>(
         &mut self,
         pixels: &[usize],
         part: Range<f64>,
-        find: impl Fn(usize, Gather<'a>) -> T + Sync,
+        find: impl Fn(usize, Gather<'a>, bool) -> T + Sync,
     ) -> Vec<T> {
         let mut found = Vec::with_capacity(pixels.len());
-        for batch in pixels.chunks(BATCH) {
+        let mut pace = Pace::new();
+        while found.len() < pixels.len() {
             let done = found.len() as f64 / pixels.len() as f64;
             if (self.observe)(part.start + done * (part.end - part.start)).is_break() {
-                self.gather = None;
+                (self.gather, self.is_over) = (None, true);
             }
-            let gather = self.gather;
-            found.par_extend(batch.par_iter().map(|&index| find(index, gather)));
+            let (gather, is_over, start) = (self.gather, self.is_over, Instant::now());
+            let batch = pace.batch(&pixels[found.len()..]);
+            found.par_extend(batch.par_iter().map(|&index| find(index, gather, is_over)));
+            pace.learn(batch.len(), start.elapsed());
         }
         found
     }

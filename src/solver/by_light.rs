@@ -48,8 +48,10 @@ pub fn solve_by_light(
     settings.validate()?;
     let settings = &checkpoint.settings(settings);
     let mut observer = Observer::new(&mut observe, checkpoint);
-    let mut alone: Vec<Alone<'_>> =
-        scenes.iter().map(|(surfaces, _)| Alone::new(surfaces, settings)).collect::<Result<_>>()?;
+    let mut alone: Vec<Alone<'_>> = scenes
+        .iter()
+        .map(|(surfaces, _)| Alone::new(surfaces, settings, &mut observer))
+        .collect::<Result<_>>()?;
     let mut mesh = Mesh::new(&scenes[0].0, settings);
     for alone in &mut alone {
         alone.take_over(&mut mesh);
@@ -80,11 +82,15 @@ pub fn solve_by_light(
 }
 
 impl<'a> Alone<'a> {
-    fn new(surfaces: &'a Surfaces, settings: &Settings) -> Result<Self> {
+    fn new(
+        surfaces: &'a Surfaces,
+        settings: &Settings,
+        observer: &mut Observer<'_>,
+    ) -> Result<Self> {
         settings.validate_for(surfaces.divided_area(), surfaces.extent)?;
         let mesh = Mesh::new(surfaces, settings);
         check_reflectances(surfaces, &mesh)?;
-        let light = lamps_on(surfaces, settings, &mesh)?;
+        let light = lamps_on(surfaces, settings, &mesh, observer)?;
         let groups = Groups::new(surfaces, settings, &mesh);
         let exitance = mesh.patches.iter().map(|patch| patch.exitance).collect();
         Ok(Self { surfaces, light, groups, exitance, known: Vec::new() })

@@ -7,8 +7,8 @@ use serde::de::DeserializeOwned;
 use smallvec::SmallVec;
 
 use super::groups::Groups;
-use super::interpolate::{DIRECT, interpolate};
 use super::lookout::{ONE_PLACE, neighbours};
+use super::unfinished::make_do;
 use super::{Observer, Phase};
 use crate::colour::Rgb;
 use crate::direct::{Outlook, PatchLight};
@@ -155,24 +155,8 @@ pub(super) fn light_leaves(world: World<'_>, mesh: &mut Mesh, observer: &mut Obs
     }
     light(world, mesh, &leaves, observer);
     if observer.flow.is_break() {
-        make_do(world, mesh);
+        make_do(world.light, mesh);
     }
-}
-
-/// Gives vertices that were not evaluated in time what others say, or what would arrive if nothing stood between.
-fn make_do(World { light, .. }: World<'_>, mesh: &mut Mesh) {
-    let open = |vertex: &Vertex| {
-        let unoccluded = light.unoccluded(vertex.patch, vertex.site);
-        Direct { irradiance: unoccluded, unoccluded }
-    };
-    for patch in 0..mesh.patches.len() {
-        let root = mesh.patches[patch].root;
-        for corner in mesh[root].corners.clone() {
-            let vertex = &mut mesh.vertices[corner.index()];
-            vertex.direct = Some(vertex.direct.unwrap_or_else(|| open(vertex)));
-        }
-    }
-    interpolate(mesh, DIRECT);
 }
 
 /// True for small facets that are lit evenly, as their neighbours will be: no shadow edge is looked for that
@@ -207,7 +191,7 @@ pub(super) fn refine(
     let mut candidates: Vec<ElementId> =
         mesh.leaves().filter(|&e| may_be_divided(mesh, e)).collect();
     let lines = if settings.discontinuity_lines && settings.max_level > 0 {
-        discontinuities(world, mesh, &oracle, &candidates)
+        discontinuities(world, mesh, (&oracle, &candidates), observer)
     } else {
         vec![Vec::new(); mesh.patches.len()]
     };
@@ -243,20 +227,24 @@ pub(super) fn refine(
 fn discontinuities(
     world: World<'_>,
     mesh: &Mesh,
-    oracle: &Oracle,
-    candidates: &[ElementId],
+    (oracle, candidates): (&Oracle, &[ElementId]),
+    observer: &mut Observer<'_>,
 ) -> Vec<Vec<Discontinuity>> {
-    let mut is_wanted = vec![false; mesh.patches.len()];
-    for &element in candidates {
-        is_wanted[mesh[element].patch.index()] = true;
+    let mut wanted: Vec<PatchId> = candidates.iter().map(|&element| mesh[element].patch).collect();
+    wanted.sort_unstable();
+    wanted.dedup();
+    // Where there has been enough, nothing will be divided.
+    let _ = observer.begin(Phase::Lines, 0.0..1.0);
+    let found = observer.map(
+        &wanted,
+        || (),
+        |(), &patch| refine::discontinuities((world.surfaces, mesh), patch, world.light, oracle),
+    );
+    let mut lines = vec![Vec::new(); mesh.patches.len()];
+    for (patch, found) in wanted.into_iter().zip(found) {
+        lines[patch.index()] = found;
     }
-    let lines = |(patch, is_wanted): (usize, bool)| {
-        let patch = PatchId(patch as u32);
-        is_wanted
-            .then(|| refine::discontinuities((world.surfaces, mesh), patch, world.light, oracle))
-    };
-    let lines = is_wanted.into_par_iter().enumerate().map(lines);
-    lines.map(Option::unwrap_or_default).collect()
+    lines
 }
 
 /// Black surfaces show no light, so nothing is gained by dividing them.

@@ -22,6 +22,7 @@ pub mod relaxation;
 mod sources;
 mod stages;
 mod transport;
+mod unfinished;
 mod work;
 mod work_plane;
 
@@ -32,7 +33,7 @@ use serde::{Deserialize, Serialize};
 use crate::colour::Rgb;
 use crate::direct::{Lamps, PatchLight};
 use crate::error::{Error, Result};
-use crate::mesh::Mesh;
+use crate::mesh::{ElementId, Mesh};
 use crate::refine::{Oracle, mean_radiosity, tolerated_direct};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
@@ -114,8 +115,12 @@ pub struct Progress {
 /// The passes of a solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Phase {
+    /// What each patch sees of the lamps.
+    Lamps,
     /// Direct light, refining the mesh.
     Direct,
+    /// Lines on which direct light has a kink or a bend.
+    Lines,
     /// Exchange of reflected light.
     Shooting,
     /// Indirect light at vertices.
@@ -179,7 +184,7 @@ pub fn solve_with(
     let mut observer = Observer::new(&mut observe, checkpoint);
     let mut mesh = Mesh::new(surfaces, settings);
     check_reflectances(surfaces, &mesh)?;
-    let light = lamps_on(surfaces, settings, &mesh)?;
+    let light = lamps_on(surfaces, settings, &mesh, &mut observer)?;
     let groups = Groups::new(surfaces, settings, &mesh);
     let world = World::new(surfaces, &light, &groups);
 
@@ -192,13 +197,22 @@ pub fn solve_with(
 }
 
 /// All light straight from emitters on the patches of a mesh; there must be some.
-fn lamps_on(surfaces: &Surfaces, settings: &Settings, mesh: &Mesh) -> Result<PatchLight> {
+fn lamps_on(
+    surfaces: &Surfaces,
+    settings: &Settings,
+    mesh: &Mesh,
+    observer: &mut Observer<'_>,
+) -> Result<PatchLight> {
+    // What is left of lamps once there has been enough is told to the end.
+    let _ = observer.begin(Phase::Lamps, 0.0..1.0);
     let lamps = Lamps::new(surfaces, mesh).seen_by(settings.shadow_rays);
     if lamps.is_empty() {
         return Err(Error::Scene(DARK.to_owned()));
     }
     let tolerated = tolerated_direct(settings, surfaces.extent, mesh);
-    Ok(PatchLight::new(lamps, Occluders::new(surfaces), mesh).tolerating(mesh, tolerated))
+    let occluders = Occluders::new(surfaces);
+    let observe = |done| observer.tell(Phase::Lamps, done);
+    Ok(PatchLight::observed(lamps, occluders, mesh, observe).tolerating(mesh, tolerated))
 }
 
 /// Whether light dies away: loading a file sees to it, a scene made in code may not.
@@ -275,14 +289,14 @@ impl Exchange {
         observer: &mut Observer<'_>,
     ) -> Result<Self> {
         let mut light = ElementLight::direct(mesh);
-        let mut shooting = Shooting::new(mesh, world, settings, &light);
-        let (stop, history) = shooting.run(settings, observer)?;
+        let mut shooting = Shooting::new(mesh, world, settings, (&light, observer));
+        let (stop, history) = shooting.run(settings)?;
         light.settle(mesh, &shooting.received);
         let ambient = if stop == Stop::Converged {
             light.scale_to_the_rest(mesh, shooting.ambient());
             Rgb::ZERO
         } else {
-            shooting.ambient()
+            shooting.ambient_of_the_rest()
         };
         let Shooting { energy, shots, hemicubes, factors, .. } = shooting;
         Ok(Self { light, energy, stop, shots, hemicubes, factors, ambient, history })
@@ -315,11 +329,17 @@ impl Exchange {
         }
     }
 
-    /// Gives all vertices the mean of the elements around them, and the ambient light.
+    /// Gives corners of leaves the mean of the elements around them, and the ambient light; all other vertices
+    /// what is between.
     fn spread(&self, mesh: &mut Mesh) {
         let indirect = self.light.indirect_at_vertices(mesh);
-        for (vertex, indirect) in mesh.vertices.iter_mut().zip(indirect) {
-            vertex.indirect = Some(indirect + self.ambient);
+        mesh.vertices.iter_mut().for_each(|vertex| vertex.indirect = None);
+        let leaves: Vec<ElementId> = mesh.leaves().collect();
+        for corner in
+            leaves.into_iter().flat_map(|leaf| mesh[leaf].corners.clone()).collect::<Vec<_>>()
+        {
+            mesh.vertices[corner.index()].indirect = Some(indirect[corner.index()] + self.ambient);
         }
+        interpolate(mesh, REFLECTED);
     }
 }

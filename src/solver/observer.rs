@@ -1,14 +1,13 @@
 //! What a solution tells while it is worked out, and what it keeps.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
+use std::time::Instant;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::{Checkpoint, Phase, Progress};
-
-/// Items evaluated before the caller is asked again: fewer would keep threads waiting for each other.
-const BATCH: usize = 1024;
+use crate::watch::{Pace, in_batches};
 
 /// Tells a caller how far things are, and remembers if it has had enough.
 ///
@@ -16,6 +15,8 @@ const BATCH: usize = 1024;
 pub(super) struct Observer<'a> {
     observe: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>,
     told: Progress,
+    /// How much more of the phase is done once what is under way is.
+    part: f64,
     pub(super) flow: ControlFlow<()>,
     pub(super) checkpoint: &'a mut Checkpoint,
 }
@@ -25,31 +26,70 @@ impl<'a> Observer<'a> {
         observe: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>,
         checkpoint: &'a mut Checkpoint,
     ) -> Self {
-        let told = Progress { phase: Phase::Direct, done: 0.0 };
-        Self { observe, told, flow: ControlFlow::Continue(()), checkpoint }
+        let told = Progress { phase: Phase::Lamps, done: 0.0 };
+        Self { observe, told, part: 0.0, flow: ControlFlow::Continue(()), checkpoint }
     }
 
     pub(super) fn tell(&mut self, phase: Phase, done: f64) -> ControlFlow<()> {
         self.told = Progress { phase, done: done.clamp(0.0, 1.0) };
+        self.part = 0.0;
         if self.flow.is_continue() {
             self.flow = (self.observe)(&self.told);
         }
         self.flow
     }
 
-    /// What `work` makes of the items, batch by batch; only of the first when there has been enough.
+    /// Begins a part of a phase: what is evaluated or mapped next leads from its start to its end.
+    pub(super) fn begin(&mut self, phase: Phase, part: Range<f64>) -> ControlFlow<()> {
+        let flow = self.tell(phase, part.start);
+        self.part = part.end - part.start;
+        flow
+    }
+
+    /// What `work` makes of the items, batch by batch, remembered by the checkpoint; only of the first when there
+    /// has been enough.
     pub(super) fn evaluate<T, R: Serialize + DeserializeOwned>(
         &mut self,
         items: &[T],
         work: impl Fn(&[T]) -> R,
     ) -> Vec<R> {
         let mut results = Vec::new();
-        for batch in items.chunks(BATCH) {
-            if self.tell(self.told.phase, self.told.done).is_break() {
+        let mut pace = Pace::new();
+        let mut tell = self.teller();
+        let mut rest = items;
+        while !rest.is_empty() {
+            let done = 1.0 - rest.len() as f64 / items.len() as f64;
+            if tell(self, done).is_break() {
                 break;
             }
-            results.push(self.checkpoint.recall(|| work(batch)));
+            // A batch read back may be of another size than one that would be evaluated now.
+            let (count, result) = self.checkpoint.recall(|| {
+                let (batch, start) = (pace.batch(rest), Instant::now());
+                let result = work(batch);
+                pace.learn(batch.len(), start.elapsed());
+                (batch.len(), result)
+            });
+            rest = &rest[count.clamp(1, rest.len())..];
+            results.push(result);
         }
         results
+    }
+
+    /// What `work` makes of each item, all threads at it, each with a `tool` of its own; only of the first items
+    /// when there has been enough. The checkpoint does not know of it.
+    pub(super) fn map<T: Sync, S, R: Send>(
+        &mut self,
+        items: &[T],
+        tool: impl Fn() -> S + Sync + Send,
+        work: impl Fn(&mut S, &T) -> R + Sync + Send,
+    ) -> Vec<R> {
+        let mut tell = self.teller();
+        in_batches(items, tool, work, |done| tell(self, done))
+    }
+
+    /// Tells how much of the part under way is done.
+    fn teller(&self) -> impl FnMut(&mut Self, f64) -> ControlFlow<()> + use<'a> {
+        let (Progress { phase, done: start }, part) = (self.told, self.part);
+        move |observer, done| observer.tell(phase, start + part * done)
     }
 }

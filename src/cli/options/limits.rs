@@ -3,16 +3,9 @@
 use std::time::Duration;
 
 use clap::Args;
-use radiosity::Settings;
 
 use super::values;
-
-/// Bytes of memory that an element takes, with all that is made of it: vertices, triangles, what is gathered at
-/// them. Measured on rooms of up to a million elements, rounded up.
-const PER_ELEMENT: u64 = 3_000;
-
-/// Bytes that are taken in any case.
-const AT_LEAST: u64 = 32_000_000;
+use crate::cli::memory::MemoryLimit;
 
 /// Share of the memory that is there which may be taken by default.
 const SHARE: f64 = 0.8;
@@ -27,7 +20,7 @@ pub(crate) struct LimitOptions {
 
     /// Divide no further where memory would grow beyond this, about: 500MB, 4GB
     ///
-    /// Default: four fifths of what the system says is free.
+    /// A scene that needs more even undivided is refused. Default: four fifths of what the system says is free.
     #[arg(long, value_name = "SIZE", value_parser = values::memory)]
     max_memory: Option<u64>,
 }
@@ -37,17 +30,10 @@ impl LimitOptions {
         self.time_limit
     }
 
-    /// The settings, with as many elements as memory allows.
-    pub(crate) fn limited(&self, settings: Settings) -> Settings {
-        let bytes = self.max_memory.or_else(free).map(|bytes| bytes.saturating_sub(AT_LEAST));
-        let most = bytes.map(|bytes| usize::try_from(bytes / PER_ELEMENT).unwrap_or(usize::MAX));
-        Settings { max_elements: most, ..settings }
+    /// What may be taken.
+    pub(crate) fn memory(&self) -> MemoryLimit {
+        MemoryLimit(self.max_memory.or_else(free))
     }
-}
-
-/// Memory in bytes that so many elements take, about.
-pub(crate) fn memory(elements: usize) -> u64 {
-    AT_LEAST + elements as u64 * PER_ELEMENT
 }
 
 /// What may be taken of the free memory, bytes; `None` where the system does not tell.

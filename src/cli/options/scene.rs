@@ -63,6 +63,11 @@ enum TwoSided {
 }
 
 impl SceneOptions {
+    /// Bytes of the file; of one that cannot be found, none.
+    pub(crate) fn bytes(&self) -> u64 {
+        std::fs::metadata(&self.path).map_or(0, |about| about.len())
+    }
+
     /// The scene, with what is added to it.
     pub(crate) fn load(&self) -> Result<Scene> {
         let options = self.load_options();

@@ -172,6 +172,11 @@ impl PictureOptions {
         Ok(())
     }
 
+    /// Pixels of a picture.
+    pub(crate) fn pixels(&self) -> u64 {
+        u64::from(self.size.width) * u64::from(self.size.height)
+    }
+
     /// One view of a mesh, the skies and suns among some lights behind it.
     pub(crate) fn picture(
         &self,

@@ -6,7 +6,7 @@ mod point;
 mod sampled;
 mod views;
 
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 
@@ -16,6 +16,7 @@ use super::pair::{exchange, is_level};
 use super::rays::Sphere;
 use crate::mesh::Patch;
 use crate::visibility::{Facet, Occluders, PatchHierarchy};
+use crate::watch;
 
 pub use point::factors_at;
 
@@ -44,9 +45,6 @@ pub struct Assembled {
     /// Rows that were finished; the others are empty.
     pub rows: usize,
 }
-
-/// Rows computed between two reports of progress. A number of its own, so that threads change nothing.
-const BATCH: usize = 64;
 
 /// Rows whose sums are nearer to one than this have no light on backs worth looking for.
 const CLOSED: f64 = 4e-4;
@@ -121,14 +119,8 @@ fn in_batches<T>(
     row: impl Fn(&mut T, usize) -> Row + Sync + Send,
     observe: &mut impl FnMut(f64) -> ControlFlow<()>,
 ) {
-    while rows.len() < count {
-        let batch: Range<usize> = rows.len()..(rows.len() + BATCH).min(count);
-        if observe(batch.start as f64 / count as f64).is_break() {
-            return;
-        }
-        let done: Vec<Row> = batch.into_par_iter().map_init(&tool, &row).collect();
-        rows.extend(done);
-    }
+    let numbers: Vec<usize> = (0..count).collect();
+    *rows = watch::in_batches(&numbers, tool, |tool, &number| row(tool, number), observe);
 }
 
 /// Exchanges above the diagonal, m²: exact where nothing stands between, else the mean of the two

@@ -6,22 +6,23 @@
 //!
 //! [Cohen, Chen, Wallace and Greenberg 1988]: https://doi.org/10.1145/54852.378487
 
+mod ambient;
+mod rows;
 mod state;
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::direct_pass::World;
 use super::energy::Energy;
 use super::groups::Groups;
 use super::relaxation::{Course, Relaxation, Residuals, Step};
-use super::transport::{Row, row};
+use super::transport::Row;
 use super::{ElementLight, Observer, Phase, Stop};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
-use crate::form_factor::hemicube::{DeltaFactors, Hemicube, Targets};
+use crate::form_factor::hemicube::{DeltaFactors, Targets};
 use crate::mesh::{ElementId, Mesh, PatchId};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
@@ -32,6 +33,9 @@ use state::last_state;
 /// Links kept for later shots; beyond them, rows are made anew.
 const KEPT_LINKS: usize = 8_000_000;
 
+/// The same where there is little room, for each element that there may be: a third of what one takes.
+const LINKS_PER_ELEMENT: usize = 50;
+
 /// Light received and not yet shot.
 #[derive(Clone, Serialize, Deserialize)]
 struct Held {
@@ -40,7 +44,8 @@ struct Held {
 }
 
 /// A solution by shooting under way.
-pub(super) struct Shooting<'a> {
+pub(super) struct Shooting<'a, 'o> {
+    observer: &'a mut Observer<'o>,
     mesh: &'a Mesh,
     surfaces: &'a Surfaces,
     occluders: &'a Occluders,
@@ -49,6 +54,7 @@ pub(super) struct Shooting<'a> {
     /// By group.
     rows: Vec<Option<Row>>,
     kept: usize,
+    most_kept: usize,
     groups: &'a Groups,
     /// By group: its area, m².
     areas: Vec<f64>,
@@ -72,14 +78,15 @@ pub(super) struct Shooting<'a> {
     pub(super) factors: u64,
 }
 
-impl<'a> Shooting<'a> {
+impl<'a, 'o> Shooting<'a, 'o> {
     /// Books the direct light: emitters have shot, patches hold what they reflect of it.
     pub(super) fn new(
         mesh: &'a Mesh,
         World { surfaces, occluders, groups, .. }: World<'a>,
         settings: &Settings,
-        light: &ElementLight,
+        (light, observer): (&ElementLight, &'a mut Observer<'o>),
     ) -> Self {
+        let _ = observer.tell(Phase::Shooting, 0.0);
         let direct = |patch: &crate::mesh::Patch| light.direct[patch.root.index()];
         let members = |group: usize| groups.members(group).iter().map(|&patch| &mesh[patch]);
         let areas: Vec<f64> =
@@ -97,6 +104,7 @@ impl<'a> Shooting<'a> {
         };
         let reflectances = (0..groups.len()).map(reflectance).collect();
         let mut shooting = Self {
+            observer,
             mesh,
             surfaces,
             occluders,
@@ -105,6 +113,7 @@ impl<'a> Shooting<'a> {
             rows: vec![None; groups.len()],
             groups,
             kept: 0,
+            most_kept: most_kept(settings),
             trees: mesh.trees(),
             pending: leaves_only(mesh, &light.direct),
             unshot: (0..groups.len()).map(unshot).collect(),
@@ -123,50 +132,27 @@ impl<'a> Shooting<'a> {
             arrived += received;
             shooting.energy.absorbed += (Rgb::ONE - patch.reflectance) * received;
         }
-        shooting.book_emitters(arrived);
+        shooting.book_emitters();
+        if !surfaces.lights.is_empty() {
+            let elsewhere = shooting.energy.escaped + shooting.energy.on_backs;
+            shooting.energy.emitted = shooting.energy.emitted.max(arrived + elsewhere);
+        }
         shooting.energy.unshot = shooting.unshot_power();
         shooting
     }
 
-    /// What emitters send past all fronts; lights without a surface emit what arrives of them.
-    fn book_emitters(&mut self, arrived: Rgb) {
-        let (mesh, groups) = (self.mesh, self.groups);
-        let shines = |patch: &&PatchId| mesh[**patch].exitance.max_element() > 0.0;
-        let emitters: Vec<usize> = (0..groups.len())
-            .filter(|&group| groups.members(group).iter().any(|patch| shines(&patch)))
-            .collect();
-        self.make_rows(&emitters);
-        for &emitter in &emitters {
-            let row = self.rows[emitter].take().unwrap_or_default();
-            for &patch in groups.members(emitter).iter().filter(shines) {
-                let power = mesh[patch].exitance * mesh[patch].area;
-                self.energy.emitted += power;
-                self.energy.escaped += power * row.escaped;
-                self.energy.on_backs += power * row.on_backs;
-                self.shots += 1;
-            }
-        }
-        self.kept = 0;
-        if !self.surfaces.lights.is_empty() {
-            let elsewhere = self.energy.escaped + self.energy.on_backs;
-            self.energy.emitted = self.energy.emitted.max(arrived + elsewhere);
-        }
-    }
-
-    /// Lets patches shoot until the unshot power is small, the shots are used up, or `observer` has
+    /// Lets patches shoot until the unshot power is small, the shots are used up, or the observer has
     /// seen enough.
-    pub(super) fn run(
-        &mut self,
-        settings: &Settings,
-        observer: &mut Observer<'_>,
-    ) -> Result<(Stop, Vec<Step>)> {
+    pub(super) fn run(&mut self, settings: &Settings) -> Result<(Stop, Vec<Step>)> {
         let relaxation = Relaxation::new(settings.solver, settings.omega)?;
         let (emitters, start) = (self.shots, self.energy.unshot_share().max(f64::MIN_POSITIVE));
         let mut course = Course::new(relaxation, self);
         let mut known = None;
-        if let Some(state) = last_state(observer) {
+        if let Some(state) = last_state(self.observer) {
             (course, known) = self.take_up(state);
         }
+        // What is made of the rest once there has been enough is not kept, but what there was by then is.
+        let is_going_on = known.is_none() && self.observer.flow.is_continue();
         let stop = known.unwrap_or_else(|| {
             relaxation.run(self, &mut course, |shooting, course| {
                 let step = course.step();
@@ -177,21 +163,23 @@ impl<'a> Shooting<'a> {
                     return Some(Stop::ShotLimit);
                 }
                 let done = (step.unshot / start).ln() / (settings.stop / start).ln();
-                let was_going_on = observer.flow.is_continue();
-                let is_over = observer.tell(Phase::Shooting, done).is_break();
-                if was_going_on && (is_over || observer.checkpoint.is_due()) {
-                    observer.checkpoint.keep(&shooting.state(course, None));
+                let is_over = shooting.observer.tell(Phase::Shooting, done).is_break();
+                if !is_over && shooting.observer.checkpoint.is_due() {
+                    shooting.keep(course, None);
                 }
                 is_over.then_some(Stop::Cancelled)
             })
         });
+        if is_going_on && stop == Stop::Cancelled {
+            self.keep(&course, None);
+        }
         self.energy.unshot = self.unshot_power();
         self.spread_over_groups();
         if stop == Stop::Diverged {
             return Err(diverged(settings));
         }
-        if known.is_none() && observer.flow.is_continue() {
-            observer.checkpoint.keep(&self.state(&course, Some(stop)));
+        if is_going_on && stop != Stop::Cancelled {
+            self.keep(&course, Some(stop));
         }
         Ok((stop, course.history))
     }
@@ -244,48 +232,12 @@ impl<'a> Shooting<'a> {
         light
     }
 
-    /// Computes the rows that are missing of some groups.
-    fn make_rows(&mut self, shooters: &[usize]) {
-        if self.kept > KEPT_LINKS {
-            self.rows.fill(None);
-            self.kept = 0;
-        }
-        let missing: Vec<usize> =
-            shooters.iter().copied().filter(|&shooter| self.rows[shooter].is_none()).collect();
-        let scene = (self.surfaces, self.mesh, self.groups);
-        let (delta, targets, occluders) = (&self.delta, &self.targets, self.occluders);
-        let rows: Vec<Row> = missing
-            .par_iter()
-            .map_init(
-                || Hemicube::new(delta, targets, occluders),
-                |hemicube, &shooter| row(scene, hemicube, shooter),
-            )
-            .collect();
-        self.hemicubes += rows.len();
-        for (shooter, row) in missing.into_iter().zip(rows) {
-            self.kept += row.links.len();
-            self.factors += row.factors;
-            self.rows[shooter] = Some(row);
-        }
-    }
-
     fn unshot_power(&self) -> Rgb {
         self.areas.iter().zip(&self.unshot).map(|(&area, &unshot)| unshot * area).sum()
     }
-
-    /// Estimate of the irradiance that the unshot light will give rise to, the same everywhere, W/m².
-    ///
-    /// The mean unshot radiosity times 1 / (1 - mean reflectance), as in Cohen et al. 1988: exact for
-    /// a closed room that is all alike.
-    pub(super) fn ambient(&self) -> Rgb {
-        let area: f64 = self.mesh.patches.iter().map(|patch| patch.area).sum();
-        let reflectance: Rgb =
-            self.mesh.patches.iter().map(|patch| patch.reflectance * (patch.area / area)).sum();
-        self.unshot_power() / area / (Rgb::ONE - reflectance)
-    }
 }
 
-impl Residuals for Shooting<'_> {
+impl Residuals for Shooting<'_, '_> {
     fn rows(&self) -> usize {
         self.unshot.len()
     }
@@ -358,6 +310,12 @@ impl Released {
             Self::Even(radiosity) => *radiosity,
         }
     }
+}
+
+/// How many links may be kept.
+fn most_kept(settings: &Settings) -> usize {
+    let room = settings.max_elements.unwrap_or(usize::MAX).saturating_mul(LINKS_PER_ELEMENT);
+    room.min(KEPT_LINKS)
 }
 
 /// A part's share of the whole; of nothing, all.

@@ -24,9 +24,15 @@ pub(super) struct State {
     ready: Vec<usize>,
 }
 
-impl Shooting<'_> {
+impl Shooting<'_, '_> {
+    /// Keeps the state in the checkpoint.
+    pub(super) fn keep(&mut self, course: &Course, stop: Option<Stop>) {
+        let state = self.state(course, stop);
+        self.observer.checkpoint.keep(&state);
+    }
+
     /// The state to go on from, once the history is this.
-    pub(super) fn state(&self, course: &Course, stop: Option<Stop>) -> State {
+    fn state(&self, course: &Course, stop: Option<Stop>) -> State {
         let rows = self.rows.iter().enumerate().filter(|(_, row)| row.is_some());
         State {
             course: course.clone(),

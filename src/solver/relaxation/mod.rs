@@ -89,7 +89,7 @@ pub(super) trait Residuals {
         true
     }
 
-    /// Makes rows ready, the first of them at least.
+    /// Makes rows ready, the first of them at least; none of them if it is told to stop.
     fn prepare(&mut self, _rows: &[usize]) {}
 
     /// Relaxes a row: releases `omega` times what it holds and delivers it. Returns the change of
@@ -115,14 +115,17 @@ impl Relaxation {
         self,
         system: &mut S,
         course: &mut Course,
-        mut judge: impl FnMut(&S, &Course) -> Option<Stop>,
+        mut judge: impl FnMut(&mut S, &Course) -> Option<Stop>,
     ) -> Stop {
         loop {
             let hopeless = |course: &Course| course.trend.verdict(&course.step());
             if let Some(stop) = judge(system, course).or_else(|| hopeless(course)) {
                 return stop;
             }
-            let Some(row) = course.order.next(system) else { return Stop::Converged };
+            let row = match course.order.next(system) {
+                Ok(row) => row,
+                Err(stop) => return stop,
+            };
             let change = system.relax(row, self.omega);
             course.history.push(course.trend.step(system, Some((row, change))));
         }

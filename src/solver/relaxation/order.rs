@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{BATCH, Residuals};
+use super::{BATCH, Residuals, Stop};
 use crate::settings::Method;
 
 /// The order of a method.
@@ -18,18 +18,21 @@ impl Order {
         Self { method, taken: 0 }
     }
 
-    /// The next row, made ready together with those likely to follow; none if there are no rows.
-    pub(super) fn next(&mut self, system: &mut impl Residuals) -> Option<usize> {
+    /// The next row, made ready together with those likely to follow; or else why there is none.
+    pub(super) fn next(&mut self, system: &mut impl Residuals) -> Result<usize, Stop> {
         if self.method == Method::Jacobi && self.taken.is_multiple_of(system.rows().max(1)) {
             system.remember();
         }
-        let row = *self.ahead(system, 1).first()?;
+        let row = *self.ahead(system, 1).first().ok_or(Stop::Converged)?;
         if !system.is_ready(row) {
             let ahead = self.ahead(system, BATCH);
             system.prepare(&ahead);
+            if !system.is_ready(row) {
+                return Err(Stop::Cancelled);
+            }
         }
         self.taken += 1;
-        Some(row)
+        Ok(row)
     }
 
     /// The next rows, as things stand.

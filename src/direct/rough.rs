@@ -1,0 +1,77 @@
+//! Direct light by few rays, for results that are wanted at once: coarse, with shadows, right on the mean.
+
+use glam::DVec3;
+
+use super::glimpse::place_on;
+use super::{Lamp, Lamps, punctual};
+use crate::colour::Rgb;
+use crate::mesh::Direct;
+use crate::visibility::Occluders;
+
+/// Rays from a place, at least: where there are fewer lamps, several go to each.
+const RAYS: usize = 8;
+
+/// The number of a lamp, what it sends to a place if nothing hides it, W/m², and where a ray to it ends.
+type Sent = (u32, Rgb, DVec3);
+
+impl Lamps {
+    /// What arrives at a place with unit `normal`, by rays to places on the lamps that `random` chooses, even in 0..1.
+    ///
+    /// What would arrive if nothing stood between is exact; of that counts what the rays reach. Of many lamps, those
+    /// that send most are asked for all, each as often as it sends.
+    pub fn rough(
+        &self,
+        occluders: &Occluders,
+        (place, normal): (DVec3, DVec3),
+        mut random: impl FnMut() -> f64,
+    ) -> Direct {
+        let sent = self.sent((place, normal), occluders, &mut random);
+        let unoccluded: Rgb = sent.iter().map(|(_, light, _)| *light).sum();
+        let all = unoccluded.element_sum();
+        if all <= 0.0 {
+            return Direct::default();
+        }
+        let mut irradiance = Rgb::ZERO;
+        let (mut passed, start) = (0.0, random());
+        for (number, light, end) in &sent {
+            let strength = light.element_sum();
+            // Those that hold one of equally many steps of all that is sent, from some start on.
+            let steps = |sum: f64| (sum / all * RAYS as f64 + start).floor();
+            let count = steps(passed + strength) - steps(passed);
+            passed += strength;
+            let is_own = |surface| self.list[*number as usize].is_part(surface);
+            if count > 0.0 && !occluders.blocks_beyond(place, *end, is_own) {
+                irradiance += *light * (count * all / (strength * RAYS as f64));
+            }
+        }
+        Direct { irradiance: irradiance.min(unoccluded), unoccluded }
+    }
+
+    /// What each lamp sends, or each of some parts of a few, and places on them.
+    fn sent(
+        &self,
+        receiver: (DVec3, DVec3),
+        occluders: &Occluders,
+        random: &mut impl FnMut() -> f64,
+    ) -> Vec<Sent> {
+        let each = RAYS.div_ceil(self.list.len().max(1));
+        let mut sent = Vec::new();
+        for (number, lamp) in (0..).zip(&self.list) {
+            if let Some(view) = lamp.view(receiver) {
+                let light = view.unoccluded() / each as f64;
+                let shift = [random(), random()];
+                sent.extend((0..each).map(|k| {
+                    let along = (k as f64 + shift[0]) / each as f64;
+                    // Steps of the golden ratio are even, however many.
+                    let across = (shift[1] + k as f64 * 0.618_033_988_749_895).fract();
+                    (number, light, place_on(&view.polygon, [along, across]).0)
+                }));
+            } else if let Lamp::Point(point) = lamp
+                && let Some((light, source)) = punctual::irradiance(point, receiver.0, receiver.1)
+            {
+                sent.push((number, light, source.end(receiver.0, occluders)));
+            }
+        }
+        sent
+    }
+}

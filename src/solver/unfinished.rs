@@ -1,0 +1,112 @@
+//! Direct light where it was not evaluated in time: coarse, but never without shadows.
+
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+use super::interpolate::{DIRECT, interpolate};
+use crate::colour::Rgb;
+use crate::direct::PatchLight;
+use crate::mesh::{Direct, Mesh, PatchId, VertexId};
+use crate::watch::{in_batches, within};
+
+/// Time for a rough look at all places: who has ended the work waits.
+const TIME: Duration = Duration::from_millis(700);
+
+/// Deepest level of elements in whose middle light may be another than between their corners.
+const COARSE: u32 = 1;
+
+/// Share of the golden section: its multiples are even over everything, wherever they end.
+const GOLDEN: f64 = 0.618_033_988_749_895;
+
+/// Gives vertices that were not evaluated in time light: corners of patches and the middles of elements that were
+/// hardly divided by a few rays, all others from those.
+///
+/// Where even that takes too long, corners have what others of their patch have, or of their surface.
+pub(super) fn make_do(light: &PatchLight, mesh: &mut Mesh) {
+    let mut go_on = within(TIME);
+    let corners = mesh.patches.iter().flat_map(|patch| mesh[patch.root].corners.iter().copied());
+    let dark = dark(mesh, corners);
+    look(light, mesh, &dark, &mut go_on);
+    let coarse = mesh.leaves().filter(|&leaf| mesh[leaf].level <= COARSE);
+    let middles = coarse.filter_map(|leaf| mesh.find_middle(leaf));
+    let places = middles.flat_map(|middle| middle.edges.into_iter().chain([middle.centre]));
+    let dark = self::dark(mesh, places);
+    look(light, mesh, &dark, &mut go_on);
+    borrow(mesh);
+    interpolate(mesh, DIRECT);
+}
+
+/// Those of the vertices whose light is not known, in an order of which any beginning is spread over all.
+fn dark(mesh: &Mesh, vertices: impl Iterator<Item = VertexId>) -> Vec<VertexId> {
+    let mut dark: Vec<VertexId> = vertices.filter(|&v| mesh[v].direct.is_none()).collect();
+    dark.sort_unstable();
+    dark.dedup();
+    let mut order: Vec<(f64, VertexId)> =
+        dark.into_iter().enumerate().map(|(k, v)| ((k as f64 * GOLDEN).fract(), v)).collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    order.into_iter().map(|(_, vertex)| vertex).collect()
+}
+
+/// Looks roughly at vertices, as long as it may.
+fn look(
+    light: &PatchLight,
+    mesh: &mut Mesh,
+    vertices: &[VertexId],
+    go_on: &mut impl FnMut(f64) -> ControlFlow<()>,
+) {
+    let at = |(): &mut (), &vertex: &VertexId| {
+        let place = (mesh[vertex].site, mesh[mesh[vertex].patch].normal);
+        let mut random = fastrand::Rng::with_seed(vertex.index() as u64);
+        light.lamps().rough(light.occluders(), place, || random.f64())
+    };
+    let found: Vec<Direct> = in_batches(vertices, || (), at, go_on);
+    for (vertex, direct) in vertices.iter().zip(found) {
+        mesh.vertices[vertex.index()].direct = Some(direct);
+    }
+}
+
+/// Gives corners of patches that are still dark the mean of what is known of their patch, else of their surface, else
+/// of all.
+fn borrow(mesh: &mut Mesh) {
+    let surfaces = mesh.patches.iter().map(|patch| patch.surface as usize + 1).max().unwrap_or(0);
+    let mut by_surface = vec![Mean::default(); surfaces];
+    let mut all = Mean::default();
+    for vertex in &mesh.vertices {
+        if let Some(direct) = vertex.direct {
+            by_surface[vertex.surface as usize].add(direct);
+            all.add(direct);
+        }
+    }
+    for patch in (0..mesh.patches.len() as u32).map(PatchId) {
+        let corners = mesh[mesh[patch].root].corners.clone();
+        let mut own = Mean::default();
+        corners.iter().filter_map(|&v| mesh[v].direct).for_each(|direct| own.add(direct));
+        let means = [own, by_surface[mesh[patch].surface as usize], all];
+        let best = means.iter().find_map(Mean::value).unwrap_or_default();
+        for corner in corners {
+            mesh.vertices[corner.index()].direct.get_or_insert(best);
+        }
+    }
+}
+
+/// A mean of what arrives.
+#[derive(Clone, Copy, Debug, Default)]
+struct Mean {
+    sum: Direct,
+    count: f64,
+}
+
+impl Mean {
+    fn add(&mut self, direct: Direct) {
+        self.sum = self.sum + direct;
+        self.count += 1.0;
+    }
+
+    fn value(&self) -> Option<Direct> {
+        let mean = |sum: Rgb| sum / self.count;
+        (self.count > 0.0).then(|| Direct {
+            irradiance: mean(self.sum.irradiance),
+            unoccluded: mean(self.sum.unoccluded),
+        })
+    }
+}
