@@ -76,6 +76,9 @@ impl Relight {
         if let Some(exposure) = self.picture.exposure {
             stamp.exposure = exposure;
         }
+        let choice = self.picture.choose_camera(&cameras(&stamp.settings))?;
+        let camera = self.picture.camera(&choice, &mesh);
+        stamp.exposure = self.picture.exposed(stamp.exposure, &mesh, &camera);
         if !self.output.is_empty() {
             meter.begin("writing");
         }
@@ -83,13 +86,8 @@ impl Relight {
             export::save(&mesh, path, &stamp)?;
         }
         if !self.image.is_empty() {
-            let camera = self.picture.choose_camera(&cameras(&stamp.settings))?;
-            draw(
-                (&mesh, &sky),
-                (&self.picture, &self.image),
-                (&camera, stamp.exposure),
-                &mut meter,
-            )?;
+            meter.begin("picture");
+            draw((&mesh, &sky), (&self.picture, &self.image), (&camera, &stamp), &mut meter)?;
         }
         let seconds = meter.into_timings();
         let lights = mesh.lights.iter().map(|light| &light.group);

@@ -8,6 +8,7 @@ use radiosity::export::{self, Stamp};
 use radiosity::lightmap::Atlas;
 use radiosity::mesh::Direct;
 use radiosity::render::{self, Solved, Subject};
+use radiosity::scene::Camera;
 use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
 use radiosity::{Error, Scene, Settings, Solution, Surfaces, surfaces_of};
@@ -133,7 +134,9 @@ impl Solve {
         refuse_darkness(&solution)?;
         tell_if_full(&solution, &meter);
 
+        let camera = self.picture.camera(&camera, &mesh);
         let exposure = self.picture.exposure.unwrap_or_default();
+        let exposure = self.picture.exposed(exposure, &mesh, &camera);
         let stamp = Stamp {
             exposure,
             settings: stamped(&settings_record, &scene),
@@ -249,7 +252,7 @@ impl Solve {
     fn write_pictures(
         &self,
         subject: Subject<'_>,
-        (camera, exposure): (&CameraChoice, Exposure),
+        (camera, exposure): (&Camera, Exposure),
         interrupt: &Interrupt,
         meter: &mut Meter,
     ) -> Result<(), Failure> {
@@ -257,12 +260,11 @@ impl Solve {
             return Ok(());
         }
         meter.begin("picture");
-        let camera = self.picture.camera(camera, subject.mesh);
-        meter.explain(&format!("camera {}", CameraRecord::from(&camera)));
+        meter.explain(&format!("camera {}", CameraRecord::from(camera)));
         let display = display(subject.mesh, exposure);
         let lights = subject.solved.map_or(&[][..], |solved| &solved.surfaces.lights);
         for (view, paths) in self.picture.views(&self.image)? {
-            let picture = self.picture.picture(view, subject, (&camera, lights), |done| {
+            let picture = self.picture.picture(view, subject, (camera, lights), |done| {
                 meter.advance("picture", done);
                 interrupt.flow()
             });

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use glam::DVec3;
 use radiosity::reconstruct::TriMesh;
 use radiosity::render::{
-    Display, Picture, RenderOptions, Subject, View, automatic_camera, render_solved,
+    Display, Picture, RenderOptions, Subject, View, automatic_camera, exposure_seen, render_solved,
 };
 use radiosity::scene::{Camera, NamedLight};
 use radiosity::tone::{Exposure, exposure_scale};
@@ -47,6 +47,8 @@ pub(crate) struct PictureOptions {
     fov: Option<f64>,
 
     /// Brightness: auto, or an exposure value (EV at ISO 100); one more halves it
+    ///
+    /// `auto` goes by the mesh and by what the camera sees of it; a GLB's colours have the brightness of the picture.
     #[arg(long, value_name = "EV", value_parser = values::exposure)]
     #[arg(allow_hyphen_values = true)]
     pub(crate) exposure: Option<Exposure>,
@@ -136,6 +138,17 @@ impl PictureOptions {
                 let found = automatic_camera(mesh, f64::from(width) / f64::from(height));
                 Camera { vertical_fov: fov.unwrap_or(found.vertical_fov), ..found }
             }
+        }
+    }
+
+    /// The exposure of a mesh from a camera, by what is seen if it is automatic.
+    pub(crate) fn exposed(&self, wanted: Exposure, mesh: &TriMesh, camera: &Camera) -> Exposure {
+        let Size { width, height } = self.size;
+        match wanted {
+            Exposure::Automatic => {
+                exposure_seen(mesh, camera, f64::from(width) / f64::from(height))
+            }
+            chosen => chosen,
         }
     }
 
