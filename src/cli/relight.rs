@@ -73,12 +73,9 @@ impl Relight {
             }
         }
         keep_lights(&mut stamp.settings, &sky);
-        if let Some(exposure) = self.picture.exposure {
-            stamp.exposure = exposure;
-        }
         let choice = self.picture.choose_camera(&cameras(&stamp.settings))?;
-        let camera = self.picture.camera(&choice, &mesh);
-        stamp.exposure = self.picture.exposed(stamp.exposure, &mesh, &camera);
+        let (camera, exposure) = self.picture.look(&choice, &mesh, stamp.exposure);
+        stamp.exposure = exposure;
         if !self.output.is_empty() {
             meter.begin("writing");
         }

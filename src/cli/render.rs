@@ -56,13 +56,10 @@ impl Render {
         if !stamp.finished {
             meter.tell("the solution was stopped before it was done");
         }
-        if let Some(exposure) = self.picture.exposure {
-            stamp.exposure = exposure;
-        }
         let lights = lights(&stamp.settings);
         meter.begin("picture");
-        let camera = self.picture.camera(&choice, &mesh);
-        stamp.exposure = self.picture.exposed(stamp.exposure, &mesh, &camera);
+        let (camera, exposure) = self.picture.look(&choice, &mesh, stamp.exposure);
+        stamp.exposure = exposure;
         draw((&mesh, &lights), (&self.picture, &self.output), (&camera, &stamp), &mut meter)?;
         let camera = CameraRecord::from(&camera);
         let seconds = meter.into_timings();

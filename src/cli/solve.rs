@@ -134,9 +134,7 @@ impl Solve {
         refuse_darkness(&solution)?;
         tell_if_full(&solution, &meter);
 
-        let camera = self.picture.camera(&camera, &mesh);
-        let exposure = self.picture.exposure.unwrap_or_default();
-        let exposure = self.picture.exposed(exposure, &mesh, &camera);
+        let (camera, exposure) = self.picture.look(&camera, &mesh, Exposure::Automatic);
         let stamp = Stamp {
             exposure,
             settings: stamped(&settings_record, &scene),

@@ -51,7 +51,7 @@ pub(crate) struct PictureOptions {
     /// `auto` goes by the mesh and by what the camera sees of it; a GLB's colours have the brightness of the picture.
     #[arg(long, value_name = "EV", value_parser = values::exposure)]
     #[arg(allow_hyphen_values = true)]
-    pub(crate) exposure: Option<Exposure>,
+    exposure: Option<Exposure>,
 
     /// What to show; all but `light` with a legend below the picture (PNG)
     ///
@@ -130,7 +130,7 @@ impl PictureOptions {
     }
 
     /// The camera itself.
-    pub(crate) fn camera(&self, choice: &CameraChoice, mesh: &TriMesh) -> Camera {
+    fn camera(&self, choice: &CameraChoice, mesh: &TriMesh) -> Camera {
         match choice {
             CameraChoice::Given(camera) => camera.clone(),
             CameraChoice::Automatic(fov) => {
@@ -141,15 +141,23 @@ impl PictureOptions {
         }
     }
 
-    /// The exposure of a mesh from a camera, by what is seen if it is automatic.
-    pub(crate) fn exposed(&self, wanted: Exposure, mesh: &TriMesh, camera: &Camera) -> Exposure {
+    /// The camera itself, and the exposure of a mesh from there: the one asked for or else `kept`, and if that is
+    /// automatic, one by what is seen.
+    pub(crate) fn look(
+        &self,
+        choice: &CameraChoice,
+        mesh: &TriMesh,
+        kept: Exposure,
+    ) -> (Camera, Exposure) {
+        let camera = self.camera(choice, mesh);
         let Size { width, height } = self.size;
-        match wanted {
+        let exposure = match self.exposure.unwrap_or(kept) {
             Exposure::Automatic => {
-                exposure_seen(mesh, camera, f64::from(width) / f64::from(height))
+                exposure_seen(mesh, &camera, f64::from(width) / f64::from(height))
             }
             chosen => chosen,
-        }
+        };
+        (camera, exposure)
     }
 
     /// Which view goes into which of the files.

@@ -16,7 +16,8 @@ const COMPASS: u32 = 8;
 /// Level directions in which an eye looks around.
 pub(super) const AROUND: u32 = 24;
 
-/// Distance, as a share of the usual one to what is around, below which a surface stands in the way.
+/// Distance below which a surface stands in the way, as a share of that within which three quarters of what is around
+/// are: an eye in a corner has walls beside it.
 const TOO_NEAR: f64 = 0.25;
 
 /// How far the directions from a surface lean off the surface, so that they do not run along it.

@@ -125,11 +125,12 @@ impl Reader<'_> {
             ..Material::default()
         };
         let reflectance = self.picture(colours)?;
-        if colours.is_some() && reflectance.is_none() {
-            if let Some(grey) = without_picture(material.reflectance) {
-                material.reflectance = grey;
-                self.pictureless.push(material.name.clone());
-            }
+        if colours.is_some()
+            && reflectance.is_none()
+            && let Some(grey) = without_picture(material.reflectance)
+        {
+            material.reflectance = grey;
+            self.pictureless.push(material.name.clone());
         }
         let glows = material.emission != Rgb::ZERO;
         let emission = self.picture(from.emissive_texture.as_ref().filter(|_| glows))?;

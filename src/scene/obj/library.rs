@@ -80,11 +80,12 @@ impl Library {
         if reflectance.is_none() && reflectance_map.is_none() {
             self.colourless.push(from.name.clone());
         }
-        if is_mapped && reflectance_map.is_none() {
-            if let Some(grey) = reflectance.and_then(without_picture) {
-                reflectance = Some(grey);
-                self.pictureless.push(from.name.clone());
-            }
+        if is_mapped
+            && reflectance_map.is_none()
+            && let Some(grey) = reflectance.and_then(without_picture)
+        {
+            reflectance = Some(grey);
+            self.pictureless.push(from.name.clone());
         }
         if from.transparent {
             self.transparent.push(from.name.clone());
