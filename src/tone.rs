@@ -1,6 +1,7 @@
 //! From radiosity to what a screen can show: exposure, then a tone curve.
 //!
-//! Both depend on the mesh alone, not on the view, so that an exported mesh and its pictures agree.
+//! Exposure is that of the whole mesh, moved as far as a camera needs that sees a much brighter or darker part of it;
+//! an exported mesh and its pictures agree by one [`Exposure`].
 
 use std::f64::consts::PI;
 
@@ -13,7 +14,10 @@ use crate::reconstruct::TriMesh;
 const KEY: f64 = 0.22;
 
 /// Share of the mean luminance below which a surface counts as unlit and is left out of the average.
-const UNLIT: f64 = 1e-3;
+pub(crate) const UNLIT: f64 = 1e-3;
+
+/// How far, EV, a view's exposure may be from what it alone asks for.
+const LEEWAY: f64 = 2.0 / 3.0;
 
 /// Largest magnitude of an exposure value; beyond it factors would leave the range of numbers.
 const EV_LIMIT: f64 = 200.0;
@@ -35,6 +39,9 @@ pub enum Exposure {
     Automatic,
     /// The photographer's exposure value at ISO 100; one more halves the brightness.
     Ev(f64),
+    /// An exposure value that was found for a camera, by what it sees; a file says of it what it says of
+    /// `Automatic`, so that other cameras find their own.
+    Found(f64),
 }
 
 /// Factor on radiosity, m²/W, that comes before [`tone_map`].
@@ -51,12 +58,23 @@ pub enum Exposure {
 /// [Reinhard et al. 2002]: https://doi.org/10.1145/566654.566575
 pub fn exposure_scale(mesh: &TriMesh, exposure: Exposure) -> f64 {
     match exposure {
-        Exposure::Ev(ev) => scale_of_ev(ev),
+        Exposure::Ev(ev) | Exposure::Found(ev) => scale_of_ev(ev),
         Exposure::Automatic => match log_average_luminance(mesh) {
             Some(average) => (KEY / average).clamp(scale_of_ev(EV_LIMIT), scale_of_ev(-EV_LIMIT)),
             None => 1.0,
         },
     }
+}
+
+/// The exposure of `mesh` for a camera that sees a log-average luminance of radiosity of `seen`, W/m², or nothing lit.
+///
+/// [`Exposure::Automatic`], moved by as little as it takes for what is seen to be within 2/3 EV of middle grey:
+/// views of one evenly lit room keep one exposure, and what no camera sees cannot darken a picture.
+pub(crate) fn exposure_of_view(mesh: &TriMesh, seen: Option<f64>) -> Exposure {
+    let whole = exposure_value(exposure_scale(mesh, Exposure::Automatic));
+    let wanted = |luminance: f64| exposure_value(KEY / luminance);
+    let ev = seen.map(wanted).filter(|ev| ev.is_finite());
+    Exposure::Found(ev.map_or(whole, |ev| whole.clamp(ev - LEEWAY, ev + LEEWAY)))
 }
 
 /// The exposure value, EV at ISO 100, whose [`exposure_scale`] is `scale`, a positive number.
@@ -69,7 +87,7 @@ fn scale_of_ev(ev: f64) -> f64 {
 }
 
 /// Area-weighted log-average of the luminance of radiosity, W/m², over the lit triangles.
-fn log_average_luminance(mesh: &TriMesh) -> Option<f64> {
+pub(crate) fn log_average_luminance(mesh: &TriMesh) -> Option<f64> {
     let samples: Vec<(f64, f64)> =
         mesh.triangles.iter().map(|corners| sample(mesh, corners)).collect();
     let area: f64 = samples.iter().map(|(area, _)| area).sum();

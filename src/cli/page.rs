@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use radiosity::page::{self, Cell, Markup, Model, Step, Table, Viewer, html};
 use radiosity::render::{Display, Solved, Subject, View, png};
+use radiosity::scene::Camera;
 use radiosity::{Result, Solution, TriMesh, reconstruct};
 
 use super::interrupt::Interrupt;
 use super::meter::{Meter, Timing};
-use super::options::{CameraChoice, PictureOptions};
+use super::options::PictureOptions;
 use super::record::SettingsRecord;
 use super::summary::Summary;
 
@@ -41,7 +42,7 @@ pub(crate) struct Account<'a> {
     pub(crate) solved: Solved<'a>,
     /// The light on its way.
     pub(crate) stages: &'a [Solution],
-    pub(crate) camera: &'a CameraChoice,
+    pub(crate) camera: &'a Camera,
     pub(crate) display: Display,
     pub(crate) summary: &'a Summary,
     pub(crate) settings: &'a SettingsRecord,
@@ -78,10 +79,9 @@ impl PageOptions {
         let mut steps: Vec<Step> =
             account.stages.iter().map(|stage| early_step(&account.solved, stage)).collect();
         steps.push(last_step(account));
-        let camera = options.camera(account.camera, account.mesh);
         let subject = Subject { mesh: account.mesh, solved: Some(account.solved) };
         let lights = &account.solved.surfaces.lights;
-        let picture = options.picture(View::Light, subject, (&camera, lights), |done| {
+        let picture = options.picture(View::Light, subject, (account.camera, lights), |done| {
             meter.advance("page", done);
             interrupt.flow()
         });
@@ -89,7 +89,7 @@ impl PageOptions {
         let title = title(account.scene);
         let viewer = Viewer {
             steps: &steps,
-            camera: &camera,
+            camera: account.camera,
             exposure: account.display.scale,
             group: "solution",
             alt: &format!("{title}, lit: {} triangles", account.summary.triangles),

@@ -73,9 +73,9 @@ impl Relight {
             }
         }
         keep_lights(&mut stamp.settings, &sky);
-        if let Some(exposure) = self.picture.exposure {
-            stamp.exposure = exposure;
-        }
+        let choice = self.picture.choose_camera(&cameras(&stamp.settings))?;
+        let (camera, exposure) = self.picture.look(&choice, &mesh, stamp.exposure);
+        stamp.exposure = exposure;
         if !self.output.is_empty() {
             meter.begin("writing");
         }
@@ -83,13 +83,8 @@ impl Relight {
             export::save(&mesh, path, &stamp)?;
         }
         if !self.image.is_empty() {
-            let camera = self.picture.choose_camera(&cameras(&stamp.settings))?;
-            draw(
-                (&mesh, &sky),
-                (&self.picture, &self.image),
-                (&camera, stamp.exposure),
-                &mut meter,
-            )?;
+            meter.begin("picture");
+            draw((&mesh, &sky), (&self.picture, &self.image), (&camera, &stamp), &mut meter)?;
         }
         let seconds = meter.into_timings();
         let lights = mesh.lights.iter().map(|light| &light.group);

@@ -4,15 +4,15 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::Args;
+use radiosity::export::Stamp;
 use radiosity::render::{self, Subject};
-use radiosity::scene::NamedLight;
-use radiosity::tone::Exposure;
+use radiosity::scene::{Camera, NamedLight};
 use radiosity::{TriMesh, export};
 use serde_json::json;
 
 use super::failure::Failure;
 use super::meter::Meter;
-use super::options::{CameraChoice, PictureOptions, ReportOptions, display};
+use super::options::{PictureOptions, ReportOptions, display};
 use super::record::{CameraRecord, cameras, lights};
 use super::{console, outputs};
 
@@ -51,15 +51,17 @@ impl Render {
         self.report.talk.use_threads()?;
         let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
-        let (mesh, stamp) = export::load_solved(&self.path)?;
+        let (mesh, mut stamp) = export::load_solved(&self.path)?;
         let choice = self.picture.choose_camera(&cameras(&stamp.settings))?;
         if !stamp.finished {
             meter.tell("the solution was stopped before it was done");
         }
-        let exposure = self.picture.exposure.unwrap_or(stamp.exposure);
         let lights = lights(&stamp.settings);
-        let camera =
-            draw((&mesh, &lights), (&self.picture, &self.output), (&choice, exposure), &mut meter)?;
+        meter.begin("picture");
+        let (camera, exposure) = self.picture.look(&choice, &mesh, stamp.exposure);
+        stamp.exposure = exposure;
+        draw((&mesh, &lights), (&self.picture, &self.output), (&camera, &stamp), &mut meter)?;
+        let camera = CameraRecord::from(&camera);
         let seconds = meter.into_timings();
         if self.report.json {
             let written = &self.output;
@@ -75,27 +77,25 @@ impl Render {
     }
 }
 
-/// Makes pictures of a mesh that was read from a file and the sky behind it, and returns from where.
+/// Makes pictures of a mesh that was read from a file and the sky behind it.
 pub(crate) fn draw(
     (mesh, sky): (&TriMesh, &[NamedLight]),
     (options, paths): (&PictureOptions, &[PathBuf]),
-    (choice, exposure): (&CameraChoice, Exposure),
+    (camera, stamp): (&Camera, &Stamp),
     meter: &mut Meter,
-) -> Result<CameraRecord, Failure> {
-    meter.begin("picture");
-    let camera = options.camera(choice, mesh);
-    let record = CameraRecord::from(&camera);
-    meter.explain(&format!("camera {record}"));
-    let display = display(mesh, exposure);
+) -> Result<(), Failure> {
+    meter.explain(&format!("camera {}", CameraRecord::from(camera)));
+    let display = display(mesh, stamp.exposure);
     let subject = Subject { mesh, solved: None };
     for (view, paths) in options.views(paths)? {
-        let picture = options.picture(view, subject, (&camera, sky), |done| {
+        let mut picture = options.picture(view, subject, (camera, sky), |done| {
             meter.advance("picture", done);
             ControlFlow::Continue(())
         });
+        picture.unfinished = !stamp.finished;
         for path in paths {
             render::save(&picture, path, &display)?;
         }
     }
-    Ok(record)
+    Ok(())
 }

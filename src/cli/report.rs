@@ -6,8 +6,8 @@ use std::path::Path;
 
 use radiosity::compare::{self, Account, Comparison};
 use radiosity::page;
-use radiosity::render::{Display, automatic_camera};
-use radiosity::tone::{Exposure, exposure_scale};
+use radiosity::render::{Display, automatic_camera, exposure_seen};
+use radiosity::tone::exposure_scale;
 use radiosity::{Error, Result, Scene, TriMesh};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -37,7 +37,8 @@ pub(crate) fn write(subject: &Subject<'_>, output: &Path) -> Result<()> {
         (None, Some(mesh)) => automatic_camera(mesh, ASPECT),
         (None, None) => automatic_camera(&TriMesh::default(), ASPECT),
     };
-    let scale = mesh.map_or(1.0, |mesh| exposure_scale(mesh, Exposure::default()));
+    let seen = |mesh| exposure_scale(mesh, exposure_seen(mesh, &camera, ASPECT));
+    let scale = mesh.map_or(1.0, seen);
     let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
     let account = Account {
         title: &title,

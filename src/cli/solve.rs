@@ -8,7 +8,7 @@ use radiosity::export::{self, Stamp};
 use radiosity::lightmap::Atlas;
 use radiosity::mesh::Direct;
 use radiosity::render::{self, Solved, Subject};
-use radiosity::scene::Texture;
+use radiosity::scene::{Camera, Texture};
 use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
 use radiosity::{Error, Scene, Settings, Solution, Surfaces, surfaces_of};
@@ -135,7 +135,7 @@ impl Solve {
         refuse_darkness(&solution)?;
         tell_if_full(&solution, &meter);
 
-        let exposure = self.picture.exposure.unwrap_or_default();
+        let (camera, exposure) = self.picture.look(&camera, &mesh, Exposure::Automatic);
         let stamp = Stamp {
             exposure,
             settings: stamped(&settings_record, &scene),
@@ -274,7 +274,7 @@ impl Solve {
     fn write_pictures(
         &self,
         subject: Subject<'_>,
-        (camera, exposure): (&CameraChoice, Exposure),
+        (camera, exposure): (&Camera, Exposure),
         interrupt: &Interrupt,
         meter: &mut Meter,
     ) -> Result<(), Failure> {
@@ -282,12 +282,11 @@ impl Solve {
             return Ok(());
         }
         meter.begin("picture");
-        let camera = self.picture.camera(camera, subject.mesh);
-        meter.explain(&format!("camera {}", CameraRecord::from(&camera)));
+        meter.explain(&format!("camera {}", CameraRecord::from(camera)));
         let display = display(subject.mesh, exposure);
         let lights = subject.solved.map_or(&[][..], |solved| &solved.surfaces.lights);
         for (view, paths) in self.picture.views(&self.image)? {
-            let picture = self.picture.picture(view, subject, (&camera, lights), |done| {
+            let picture = self.picture.picture(view, subject, (camera, lights), |done| {
                 meter.advance("picture", done);
                 interrupt.flow()
             });

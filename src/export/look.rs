@@ -44,7 +44,7 @@ impl<'a> Look<'a> {
     /// Sentences for the comments of text headers, one a line.
     pub(crate) fn remarks(&self) -> Vec<String> {
         let mode = match self.stamp.exposure {
-            Exposure::Automatic => "automatic",
+            Exposure::Automatic | Exposure::Found(_) => "automatic",
             Exposure::Ev(_) => "chosen",
         };
         let ev = exposure_value(self.scale);

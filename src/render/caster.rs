@@ -16,6 +16,9 @@ const PADDING: f64 = 1e-5;
 /// of f64, so that no ray slips between neighbours.
 const EDGE: f64 = 1e-9;
 
+/// Thickness of a sheet, as a share of the distance: above the rounding of f64.
+const SHEET: f64 = 1e-9;
+
 /// Which sides of the triangles stop a ray.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sides {
@@ -34,6 +37,17 @@ pub(super) struct Hit {
     pub(super) weights: DVec3,
     /// True if the ray comes from the triangle's front.
     pub(super) front: bool,
+}
+
+impl Hit {
+    /// Of the two sides of a sheet, which are equally far, the front comes first.
+    fn is_before(&self, other: &Self) -> bool {
+        match self.front == other.front {
+            true => self.distance < other.distance,
+            false if self.front => self.distance <= other.distance * (1.0 + SHEET),
+            false => self.distance * (1.0 + SHEET) < other.distance,
+        }
+    }
 }
 
 /// The triangles of a mesh in a tree of boxes, moved and scaled into the unit cube around the
@@ -81,8 +95,7 @@ impl Caster {
         let mut ignored = obvhs::ray::RayHit::none();
         self.tree.ray_traverse(ray, &mut ignored, |_, slot| {
             let hit = self.triangles[slot].meet(origin, direction, sides);
-            let Some(hit) = hit.filter(|hit| nearest.is_none_or(|n| hit.distance < n.distance))
-            else {
+            let Some(hit) = hit.filter(|hit| nearest.is_none_or(|n| hit.is_before(&n))) else {
                 return f32::INFINITY;
             };
             nearest = Some(hit);

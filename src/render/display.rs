@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use image::RgbImage;
 
 use super::legend::{self, Body, Legend};
+use super::letters;
 use super::map::{Map, over_background, value_of_mesh};
 use super::picture::Picture;
 use super::view::View;
@@ -16,6 +17,9 @@ const LINE_STRENGTH: f64 = 0.6;
 
 /// The same of lines of equal value.
 const ISOLINE_STRENGTH: f64 = 0.75;
+
+/// What a picture says of light that is not yet what it will be.
+const UNFINISHED: &str = "unfinished";
 
 /// How a picture is shown on a screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,14 +79,18 @@ fn coded(linear: Rgb) -> Rgb {
     linear.to_array().map(srgb_from_linear).into()
 }
 
-/// An image of sRGB-coded colours, 0..=1, with the picture's lines over them.
+/// An image of sRGB-coded colours, 0..=1, with the picture's lines and its mark over them.
 fn painted(picture: &Picture, colour: impl Fn(usize) -> Rgb) -> RgbImage {
-    RgbImage::from_fn(picture.width, picture.height, |x, y| {
+    let mut image = RgbImage::from_fn(picture.width, picture.height, |x, y| {
         let index = y as usize * picture.width as usize + x as usize;
         let line = picture.lines.get(index).copied().unwrap_or(0.0);
         let colour = with_line(colour(index), f64::from(line) * LINE_STRENGTH);
         image::Rgb(colour.to_array().map(|coded| (coded * 255.0).round() as u8))
-    })
+    });
+    if picture.unfinished {
+        letters::mark(&mut image, UNFINISHED);
+    }
+    image
 }
 
 /// Lines are dark on bright surfaces and bright on dark ones.

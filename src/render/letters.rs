@@ -9,6 +9,9 @@ const LARGE_PICTURE: u32 = 1000;
 /// sRGB-coded colour of letters and marks.
 pub(super) const INK: [u8; 3] = [240, 240, 240];
 
+/// The same of what is under a mark.
+const GROUND: [u8; 3] = [20, 20, 20];
+
 /// Letters of one width and height.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Letters {
@@ -44,6 +47,15 @@ impl Letters {
             }
         }
     }
+}
+
+/// Writes a word into the upper left corner, on a ground of its own, so that it can be read over any picture.
+pub(super) fn mark(image: &mut RgbImage, word: &str) {
+    let letters = Letters::for_picture(image.width(), image.height());
+    let margin = letters.height / 4;
+    let size = [letters.length(word) + 2 * margin, letters.height + 2 * margin];
+    fill(image, [0, 0, size[0], size[1]], GROUND);
+    letters.write(image, word, [margin, margin]);
 }
 
 fn blend_ink(image: &mut RgbImage, x: u32, y: u32, intensity: u8) {

@@ -6,6 +6,7 @@ mod automatic_camera;
 mod caster;
 pub(crate) mod colours;
 mod display;
+mod exposure;
 mod final_gather;
 pub(crate) mod leaves;
 mod legend;
@@ -23,6 +24,7 @@ mod view;
 
 pub use automatic_camera::automatic_camera;
 pub use display::{Display, displayed};
+pub use exposure::exposure_seen;
 pub use picture::{Picture, RenderOptions, Subject, render, render_solved};
 pub use rays::close_up;
 pub(crate) use save::smallest_png;

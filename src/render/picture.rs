@@ -12,6 +12,7 @@ use super::view::View;
 use crate::colour::Rgb;
 use crate::reconstruct::TriMesh;
 use crate::scene::{Camera, NamedLight};
+use crate::solver::Stop;
 
 /// Linear pixels; all lists run row by row from the top and hold `width * height` values.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,6 +32,9 @@ pub struct Picture {
     pub lines: Vec<f32>,
     /// Value where there is no mesh.
     pub background: Rgb,
+    /// Whether it shows a solution that was stopped before it was done, as far as its [`Subject`] knows; a PNG says so
+    /// in its corner.
+    pub unfinished: bool,
     /// What the mesh is made of, in words.
     pub(super) caption: String,
     /// What colours stand for, where values are colours.
@@ -91,6 +95,13 @@ pub struct Subject<'a> {
     pub solved: Option<Solved<'a>>,
 }
 
+impl Subject<'_> {
+    /// Whether its solution was stopped before it was done.
+    fn is_unfinished(&self) -> bool {
+        self.solved.is_some_and(|solved| solved.solution.stop != Stop::Converged)
+    }
+}
+
 /// The picture of `mesh` from `camera`: radiance B/π, averaged over each pixel.
 ///
 /// Radiosity is interpolated linearly over the triangles; on textured parts it is multiplied by
@@ -131,6 +142,7 @@ pub fn render_solved(
             false => Vec::new(),
         },
         background,
+        unfinished: subject.is_unfinished(),
         caption: caption(mesh),
         key,
     }

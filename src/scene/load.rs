@@ -4,7 +4,10 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::notes::{counted, listed};
-use super::{LoadOptions, MAX_REFLECTANCE, Scene, Up, gltf, obj, repair, settle_sides, up};
+use super::texture::mean;
+use super::{
+    LoadOptions, MAX_REFLECTANCE, Scene, Texture, Up, gltf, obj, repair, settle_sides, up,
+};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
 
@@ -97,7 +100,8 @@ pub(crate) fn tamed(colour: Rgb, limit: f64) -> Rgb {
 pub(crate) fn limit_materials(scene: &mut Scene) {
     let (mut bright, mut wrong) = (Vec::new(), Vec::new());
     for material in &mut scene.materials {
-        if material.reflectance.max_element() > MAX_REFLECTANCE {
+        let texture = material.texture.and_then(|index| scene.textures.get(index as usize));
+        if is_too_bright(material.reflectance, texture) {
             bright.push(material.name.clone());
         }
         let reflectance = tamed(material.reflectance, MAX_REFLECTANCE);
@@ -120,10 +124,38 @@ pub(crate) fn limit_materials(scene: &mut Scene) {
     }
 }
 
+/// Whether more is reflected than may be, on average over a texture. A factor of 1 on a texture is no claim of that:
+/// it becomes 0.99 in silence.
+fn is_too_bright(reflectance: Rgb, texture: Option<&Texture>) -> bool {
+    let is_above = |colour: Rgb| colour.max_element() > MAX_REFLECTANCE;
+    is_above(reflectance) && texture.is_none_or(|texture| is_above(reflectance * mean(texture)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::Material;
+
+    #[test]
+    fn a_texture_is_told_to_be_clamped_if_its_mean_times_its_factor_is_too_bright() {
+        let texture = |texels: Vec<[f32; 3]>| Texture { texels, ..Texture::default() };
+        let told = |factor: f64, texels: Vec<[f32; 3]>| {
+            let textured = Material { texture: Some(0), ..Material::default() };
+            let material = Material { reflectance: Rgb::splat(factor), ..textured };
+            let mut scene = Scene {
+                materials: vec![material],
+                textures: vec![texture(texels)],
+                ..Scene::default()
+            };
+            limit_materials(&mut scene);
+            assert!(scene.materials[0].reflectance.max_element() <= MAX_REFLECTANCE);
+            scene.notes.len()
+        };
+        assert_eq!(told(1.0, vec![[1.0; 3], [0.2; 3]]), 0);
+        assert_eq!(told(1.5, vec![[1.0; 3], [0.2; 3]]), 0);
+        assert_eq!(told(2.0, vec![[1.0; 3], [0.2; 3]]), 1);
+        assert_eq!(told(1.0, vec![[1.0; 3]; 2]), 1);
+    }
 
     #[test]
     fn reflectance_above_limit_is_clamped_with_a_note() {

@@ -5,7 +5,8 @@ use std::io::Cursor;
 use glam::{DAffine2, DVec2};
 use image::{DynamicImage, ImageFormat, Rgb32FImage};
 
-use super::{Material, Scene, Texture};
+use super::notes::listed;
+use super::{MAX_REFLECTANCE, Material, Scene, Texture};
 use crate::colour::{Rgb, linear_from_srgb};
 
 /// How a file's texture coordinates become the scene's.
@@ -69,9 +70,25 @@ pub(crate) fn attach_pictures(
     mapping
 }
 
-fn mean(texture: &Texture) -> Rgb {
+/// Mean colour of a texture.
+pub(crate) fn mean(texture: &Texture) -> Rgb {
     let sum: Rgb = texture.texels.iter().map(|&texel| glam::Vec3::from(texel).as_dvec3()).sum();
     sum / texture.texels.len().max(1) as f64
+}
+
+/// What a material reflects whose picture is missing, where its factor says nothing of it: black, which hides a
+/// surface that only its picture was to show, and white, which leaves all to the picture.
+pub(crate) fn without_picture(factor: Rgb) -> Option<Rgb> {
+    let is_silent = factor.max_element() <= 0.0 || factor.min_element() >= MAX_REFLECTANCE;
+    is_silent.then_some(Material::default().reflectance)
+}
+
+/// The note of that.
+pub(crate) fn note_missing(notes: &mut Vec<String>, materials: &[String]) {
+    if !materials.is_empty() {
+        let names = listed(materials);
+        notes.push(format!("picture missing in {names}; grey of reflectance 0.5 is used"));
+    }
 }
 
 /// Decodes a picture, or says why it cannot.

@@ -110,3 +110,25 @@ fn the_page_holds_the_verdict_and_all_it_rests_on() {
     assert!(!page.contains("http:") && !page.contains("https:"), "the page asks for nothing");
     assert!(page.len() < 8_000_000, "{} bytes", page.len());
 }
+
+#[test]
+fn the_sky_is_seen_in_the_pictures_of_a_page() {
+    use base64::Engine as _;
+    let place = Place::new();
+    let scene = scene("facing-squares.obj");
+    let compare = ["compare", &scene, "--sky", "uniform", "-o", "report.html"];
+    place.run(&[&compare[..], &QUICK].concat()).done();
+    let page = std::fs::read_to_string(place.path("report.html")).expect("a page is written");
+    let coded = page.split("data:image/png;base64,").skip(1);
+    let pictures = coded.map(|rest| {
+        let bytes = base64::prelude::BASE64_STANDARD.decode(rest.split('"').next().unwrap_or(""));
+        image::load_from_memory(&bytes.expect("base64")).expect("a picture").into_rgb8()
+    });
+    // Beside the squares, right above the horizon and below it.
+    let is_seen = |picture: &image::RgbImage| {
+        picture.dimensions() == (640, 480)
+            && picture.get_pixel(20, 230).0[2] > 100
+            && picture.get_pixel(20, 250).0[2] == 0
+    };
+    assert!(pictures.into_iter().filter(is_seen).count() >= 3, "uniform, adaptive, reference");
+}

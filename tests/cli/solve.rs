@@ -1,5 +1,6 @@
 //! What is written, and what is said about it.
 
+use image::GenericImageView as _;
 use radiosity::export::load_solved;
 
 use crate::{Place, scene};
@@ -92,6 +93,25 @@ fn a_shot_limit_leaves_an_unfinished_solution() {
     assert_eq!(outcome.json()["stop"], "shot limit");
     let (_, stamp) = load_solved(&place.path("a.glb")).expect("the GLB can be read again");
     assert!(!stamp.finished);
+}
+
+#[test]
+fn pictures_of_an_unfinished_solution_say_so() {
+    let place = Place::new();
+    let images = ["-o", "a.glb", "--image", "a.png", "--size", "160x120", "--json"];
+    let corner = |name: &str| {
+        let picture = image::open(place.path(name)).expect("the picture was written").into_rgb8();
+        picture.view(0, 0, 84, 20).to_image()
+    };
+    let undone = place.solve(&[&images[..], &["--max-shots", "2"]].concat()).done();
+    assert_eq!(undone.json()["finished"], false);
+    place.run(&["render", "a.glb", "-o", "b.png", "--size", "160x120"]).done();
+    let marked = corner("a.png");
+    assert_eq!(marked, corner("b.png"), "a GLB keeps that it is unfinished");
+    let done = place.solve(&images).done();
+    assert_eq!(done.json()["finished"], true);
+    assert_ne!(marked, corner("a.png"));
+    assert!(marked.pixels().filter(|pixel| pixel.0 == [20; 3]).count() > 500);
 }
 
 #[test]

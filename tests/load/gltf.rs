@@ -166,6 +166,21 @@ fn a_missing_picture_costs_a_note() {
 }
 
 #[test]
+fn a_factor_that_says_nothing_under_a_missing_picture_is_taken_as_grey() {
+    for (factor, expected) in [(0.0, 0.5), (1.0, 0.5), (0.25, 0.25)] {
+        let scene = textured(json!({"index": 0}))
+            .set(
+                "/materials/0/pbrMetallicRoughness/baseColorFactor",
+                json!([factor, factor, factor, 1]),
+            )
+            .load();
+        assert_eq!(scene.materials[0].reflectance.x, expected, "{factor}");
+        let told = scene.notes.iter().any(|note| note.starts_with("picture missing in"));
+        assert_eq!(told, expected == 0.5, "{:?}", scene.notes);
+    }
+}
+
+#[test]
 fn vertex_normals_are_kept_where_they_bend() {
     let bent = floats(&[0.1, 0., 1., 0., 0., 1., 0., 0., 1.]);
     let scene = Asset::triangle().attribute("NORMAL", &bent, FLOAT, "VEC3").load();

@@ -193,6 +193,39 @@ fn missing_picture_leaves_the_factor_and_a_note() {
     assert!(scene.notes[0].contains("gone.png"), "{:?}", scene.notes);
 }
 
+#[test]
+fn black_or_white_under_a_missing_picture_is_taken_as_grey_with_a_note() {
+    for (colour, expected) in [("0 0 0", 0.5), ("1 1 1", 0.5), ("0.8 0.8 0.8", 0.8)] {
+        let scene = with_material(&format!("newmtl a\nKd {colour}\nmap_Kd gone.png\n"));
+        assert_eq!(scene.materials[0].reflectance, DVec3::splat(expected), "{colour}");
+        let told = "picture missing in \"a\"; grey of reflectance 0.5 is used".to_owned();
+        assert_eq!(scene.notes.contains(&told), expected == 0.5, "{:?}", scene.notes);
+    }
+    let black = with_material("newmtl a\nKd 0 0 0\n");
+    assert_eq!((black.materials[0].reflectance, black.notes.len()), (DVec3::ZERO, 0));
+}
+
+#[test]
+fn white_under_a_picture_is_no_reason_for_a_note() {
+    let folder = Folder::new()
+        .with("s.obj", format!("mtllib m.mtl\n{SQUARE}vt 0 0\nusemtl a\nf 1/1 2/1 3/1 4/1\n"))
+        .with("m.mtl", "newmtl a\nKd 1 1 1\nmap_Kd grey.png\n");
+    let picture = |grey: u8| {
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        let image = image::RgbImage::from_pixel(2, 2, image::Rgb([grey; 3]));
+        image.write_to(&mut bytes, image::ImageFormat::Png).expect("an encoded picture");
+        bytes.into_inner()
+    };
+    let grey = folder.with("grey.png", picture(200)).load("s.obj").unwrap();
+    assert!(grey.notes.is_empty(), "{:?}", grey.notes);
+    let white = Folder::new()
+        .with("s.obj", format!("mtllib m.mtl\n{SQUARE}vt 0 0\nusemtl a\nf 1/1 2/1 3/1 4/1\n"))
+        .with("m.mtl", "newmtl a\nKd 1 1 1\nmap_Kd grey.png\n")
+        .with("grey.png", picture(255));
+    let notes = white.load("s.obj").unwrap().notes;
+    assert_eq!(notes, ["reflectance above 0.99 clamped in \"a\""]);
+}
+
 /// Two squares that meet at a right angle in the edge between vertices 2 and 3.
 const ROOF: &str = "v -1 -1 0\nv 0 0 0\nv 0 0 1\nv -1 -1 1\nv 1 -1 0\nv 1 -1 1\n";
 

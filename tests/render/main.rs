@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod final_gather;
+mod first_look;
 mod views;
 
 use std::f64::consts::PI;

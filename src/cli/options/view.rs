@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use glam::DVec3;
 use radiosity::reconstruct::TriMesh;
 use radiosity::render::{
-    Display, Picture, RenderOptions, Subject, View, automatic_camera, render_solved,
+    Display, Picture, RenderOptions, Subject, View, automatic_camera, exposure_seen, render_solved,
 };
 use radiosity::scene::{Camera, NamedLight};
 use radiosity::tone::{Exposure, exposure_scale};
@@ -47,9 +47,11 @@ pub(crate) struct PictureOptions {
     fov: Option<f64>,
 
     /// Brightness: auto, or an exposure value (EV at ISO 100); one more halves it
+    ///
+    /// `auto` goes by the mesh and by what the camera sees of it; a GLB's colours have the brightness of the picture.
     #[arg(long, value_name = "EV", value_parser = values::exposure)]
     #[arg(allow_hyphen_values = true)]
-    pub(crate) exposure: Option<Exposure>,
+    exposure: Option<Exposure>,
 
     /// What to show; all but `light` with a legend below the picture (PNG)
     ///
@@ -128,7 +130,7 @@ impl PictureOptions {
     }
 
     /// The camera itself.
-    pub(crate) fn camera(&self, choice: &CameraChoice, mesh: &TriMesh) -> Camera {
+    fn camera(&self, choice: &CameraChoice, mesh: &TriMesh) -> Camera {
         match choice {
             CameraChoice::Given(camera) => camera.clone(),
             CameraChoice::Automatic(fov) => {
@@ -137,6 +139,25 @@ impl PictureOptions {
                 Camera { vertical_fov: fov.unwrap_or(found.vertical_fov), ..found }
             }
         }
+    }
+
+    /// The camera itself, and the exposure of a mesh from there: the one asked for or else `kept`, and if that is
+    /// automatic, one by what is seen.
+    pub(crate) fn look(
+        &self,
+        choice: &CameraChoice,
+        mesh: &TriMesh,
+        kept: Exposure,
+    ) -> (Camera, Exposure) {
+        let camera = self.camera(choice, mesh);
+        let Size { width, height } = self.size;
+        let exposure = match self.exposure.unwrap_or(kept) {
+            Exposure::Automatic => {
+                exposure_seen(mesh, &camera, f64::from(width) / f64::from(height))
+            }
+            chosen => chosen,
+        };
+        (camera, exposure)
     }
 
     /// Which view goes into which of the files.

@@ -7,9 +7,7 @@ use super::errors::{ErrorMap, ErrorScale};
 use crate::compare::comparison::Comparison;
 use crate::compare::run::{Lit, Run};
 use crate::page::{self, Markup, WipePicture, html};
-use crate::render::{
-    Picture, RenderOptions, Solved, Subject, View, close_up, png, render, render_solved,
-};
+use crate::render::{Picture, RenderOptions, Solved, Subject, View, close_up, png, render_solved};
 use crate::scene::Camera;
 
 /// Pixels of pictures.
@@ -44,12 +42,13 @@ impl<'a> Shown<'a> {
         format!("{}, {} elements", run.family.name(), run.elements)
     }
 
-    fn picture(&self, comparison: &Comparison, which: usize, view: &Look<'_>) -> Picture {
+    fn picture(&self, comparison: &Comparison, which: usize, look: &Look<'_>) -> Picture {
         let (lit, settings) = (self.lit[which], &self.runs[which].settings);
         let solved = Solved { surfaces: &comparison.surfaces, settings, solution: &lit.solution };
         let subject = Subject { mesh: &lit.mesh, solved: Some(solved) };
-        let go_on = |_| ControlFlow::Continue(());
-        render_solved(subject, view.camera, &view.options(), go_on)
+        let sky = comparison.surfaces.lights.clone();
+        let options = RenderOptions { sky, ..look.options() };
+        render_solved(subject, look.camera, &options, |_| ControlFlow::Continue(()))
     }
 
     /// Uniform, adaptive, reference.
@@ -67,14 +66,15 @@ impl<'a> Shown<'a> {
 #[derive(Clone, Copy)]
 struct Look<'a> {
     camera: &'a Camera,
+    view: View,
     size: [u32; 2],
     final_gather: bool,
 }
 
 impl Look<'_> {
     fn options(&self) -> RenderOptions {
-        let ([width, height], final_gather) = (self.size, self.final_gather);
-        RenderOptions { width, height, final_gather, ..RenderOptions::default() }
+        let ([width, height], view, final_gather) = (self.size, self.view, self.final_gather);
+        RenderOptions { view, width, height, final_gather, ..RenderOptions::default() }
     }
 }
 
@@ -91,14 +91,16 @@ pub(super) struct Gallery {
 
 impl Gallery {
     pub(super) fn new(comparison: &Comparison, shown: &Shown<'_>, account: &Account<'_>) -> Self {
-        let look = Look { camera: account.camera, size: SIZE, final_gather: false };
+        let view = View::Light;
+        let look = Look { camera: account.camera, view, size: SIZE, final_gather: false };
         let [uniform, adaptive, reference] = shown.all(comparison, &look);
         let mean = shown.runs[1].score.all.mean;
         let errors = [&uniform, &adaptive].map(|p| ErrorMap::new(p, &reference, mean));
-        let wires = RenderOptions { view: View::Wireframe, ..look.options() };
-        let meshes = shown.lit.map(|lit| {
+        let wires = Look { view: View::Wireframe, ..look };
+        let meshes = [0, 1].map(|which| {
             // So that it lies over the picture.
-            png(&render(&lit.mesh, account.camera, &wires).without_legend(), &account.display)
+            let picture = shown.picture(comparison, which, &wires).without_legend();
+            png(&picture, &account.display)
         });
         let names = [shown.name(0), shown.name(1), "reference".to_owned()];
         let pictures = [uniform, adaptive, reference].map(|p| png(&p, &account.display));
@@ -132,7 +134,8 @@ impl Gallery {
         let places = worst(&self.errors);
         let rows = places.iter().map(|&place| {
             let camera = close_up(account.camera, SIZE, place, f64::from(ZOOM));
-            let look = Look { camera: &camera, size: CLOSE_SIZE, final_gather: false };
+            let view = View::Light;
+            let look = Look { camera: &camera, view, size: CLOSE_SIZE, final_gather: false };
             let pictures = shown.all(comparison, &look);
             let figure = |k: usize| {
                 let alt = format!("Close-up of a shadow's edge: {}", self.names[k]);

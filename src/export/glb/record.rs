@@ -36,6 +36,7 @@ impl Record {
     pub(super) fn new(look: &Look) -> Self {
         let (automatic, ev) = match look.stamp.exposure {
             Exposure::Automatic => (true, exposure_value(look.scale)),
+            Exposure::Found(ev) => (true, ev),
             Exposure::Ev(ev) => (false, ev),
         };
         Self {

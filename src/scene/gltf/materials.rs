@@ -12,7 +12,9 @@ use super::file::File;
 use crate::colour::Rgb;
 use crate::error::Result;
 use crate::scene::notes::{listed, note_count};
-use crate::scene::texture::{Picture, UvMapping, attach_pictures, decode};
+use crate::scene::texture::{
+    Picture, UvMapping, attach_pictures, decode, note_missing, without_picture,
+};
 use crate::scene::{Material, Scene};
 
 /// What materials say that does not go into the scene's.
@@ -26,7 +28,8 @@ pub(super) struct Known {
 
 /// Reads all materials into `scene`.
 pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Known> {
-    let mut reader = Reader { file, scene, pictures: HashMap::new(), mirrored: 0 };
+    let mut reader =
+        Reader { file, scene, pictures: HashMap::new(), mirrored: 0, pictureless: Vec::new() };
     let mut known = Known::default();
     let (mut metals, mut clear, mut dim) = (Vec::new(), Vec::new(), Vec::new());
     for (index, from) in file.root.materials.iter().enumerate() {
@@ -44,7 +47,8 @@ pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Known> {
         reader.scene.materials.push(material);
         known.mappings.push(mapping);
     }
-    let mirrored = reader.mirrored;
+    let (mirrored, pictureless) = (reader.mirrored, reader.pictureless);
+    note_missing(&mut scene.notes, &pictureless);
     note_count(&mut scene.notes, mirrored, "texture use", "repeated instead of mirrored");
     if !metals.is_empty() {
         scene
@@ -97,6 +101,8 @@ struct Reader<'a> {
     /// Index into the scene's textures by glTF image and wrapping; `None` for unreadable ones.
     pictures: HashMap<(usize, [bool; 2]), Option<u32>>,
     mirrored: usize,
+    /// Names of the materials whose picture is missing and who say nothing else.
+    pictureless: Vec<String>,
 }
 
 impl Reader<'_> {
@@ -119,6 +125,13 @@ impl Reader<'_> {
             ..Material::default()
         };
         let reflectance = self.picture(colours)?;
+        if colours.is_some()
+            && reflectance.is_none()
+            && let Some(grey) = without_picture(material.reflectance)
+        {
+            material.reflectance = grey;
+            self.pictureless.push(material.name.clone());
+        }
         let glows = material.emission != Rgb::ZERO;
         let emission = self.picture(from.emissive_texture.as_ref().filter(|_| glows))?;
         let mapping = attach_pictures(self.scene, &mut material, reflectance, emission);

@@ -10,7 +10,9 @@ use super::mtl::{self, Map, MtlMaterial};
 use super::text;
 use crate::colour::Rgb;
 use crate::scene::notes::listed;
-use crate::scene::texture::{Picture, UvMapping, attach_pictures, decode};
+use crate::scene::texture::{
+    Picture, UvMapping, attach_pictures, decode, note_missing, without_picture,
+};
 use crate::scene::{Material, Scene};
 
 /// What a face needs to know of its material.
@@ -30,6 +32,8 @@ pub(super) struct Library {
     fallback: Option<Use>,
     /// Names of the materials without a reflectance.
     colourless: Vec<String>,
+    /// Names of those whose picture is missing and who say nothing else.
+    pictureless: Vec<String>,
     /// Names of those that let light through.
     transparent: Vec<String>,
 }
@@ -58,6 +62,7 @@ impl Library {
             let names = listed(&library.colourless);
             scene.notes.push(format!("no Kd in {names}; grey of reflectance 0.5 is used"));
         }
+        note_missing(&mut scene.notes, &library.pictureless);
         if !library.transparent.is_empty() {
             let names = listed(&library.transparent);
             scene.notes.push(format!(
@@ -68,10 +73,19 @@ impl Library {
     }
 
     fn add(&mut self, file: &Path, from: MtlMaterial, scene: &mut Scene) {
+        let is_mapped = from.reflectance_map.is_some();
         let reflectance_map = from.reflectance_map.and_then(|map| self.picture(file, &map, scene));
         let emission_map = from.emission_map.and_then(|map| self.picture(file, &map, scene));
-        if from.reflectance.is_none() && reflectance_map.is_none() {
+        let mut reflectance = from.reflectance;
+        if reflectance.is_none() && reflectance_map.is_none() {
             self.colourless.push(from.name.clone());
+        }
+        if is_mapped
+            && reflectance_map.is_none()
+            && let Some(grey) = reflectance.and_then(without_picture)
+        {
+            reflectance = Some(grey);
+            self.pictureless.push(from.name.clone());
         }
         if from.transparent {
             self.transparent.push(from.name.clone());
@@ -81,7 +95,7 @@ impl Library {
         let unlit = if emission_map.is_some() { Rgb::ONE } else { Rgb::ZERO };
         let mut material = Material {
             name: from.name.clone(),
-            reflectance: from.reflectance.unwrap_or(unsaid),
+            reflectance: reflectance.unwrap_or(unsaid),
             emission: from.emission.unwrap_or(unlit),
             ..Material::default()
         };
