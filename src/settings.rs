@@ -46,7 +46,7 @@ pub struct Settings {
     /// Factor on the light that a patch sends at a time (above 0, below 2; default 1): less is
     /// under-, more over-relaxation.
     pub omega: f64,
-    /// Cells along the edge of a hemicube's top face (32..=1024, even; default 128).
+    /// Cells along the edge of a hemicube's top face (32..=1024, even; default 128, of drafts 64).
     pub hemicube_resolution: u32,
 }
 
@@ -83,6 +83,7 @@ impl Settings {
             tolerance: 0.08,
             min_element: Length::OfScene(1.0 / 300.0),
             max_level: 5,
+            hemicube_resolution: 64,
             ..Self::medium()
         }
     }

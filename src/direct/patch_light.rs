@@ -302,8 +302,7 @@ impl<'a> Evaluation<'a> {
         let PatchLight { lamps, occluders, .. } = self.light;
         let error = tolerated(strength(self.known.irradiance));
         let open = std::mem::take(&mut self.open);
-        // Errors of several lamps add up as squares do.
-        let share = SHARE * error / (open.len().max(1) as f64).sqrt();
+        let share = SHARE * error;
         let mut pool = std::mem::take(&mut self.points);
         for (number, blockers, view) in &open {
             let sent = strength(view.unoccluded());

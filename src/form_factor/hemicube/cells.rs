@@ -1,5 +1,6 @@
 //! What the cells of a hemicube see: the item buffer, face by face.
 
+use glam::Vec3;
 use pulp::Simd;
 
 use super::clip::FACES;
@@ -154,6 +155,26 @@ impl Cells {
     pub(super) fn items(&self, face: usize, row: usize) -> &[u32] {
         let start = (self.first_row(face) + row) * self.stride;
         &self.item[start..start + self.stride][..self.resolution]
+    }
+
+    /// The patch that the cell in a direction above the horizon, in the hemicube's frame, and all around it see, if it
+    /// is one and the same.
+    pub(super) fn item_around(&self, direction: Vec3) -> Option<u32> {
+        let depths = FACES.map(|face| face.look(direction).z);
+        let face =
+            (1..FACES.len()).fold(0, |best, k| if depths[k] > depths[best] { k } else { best });
+        let (p, shape) = (FACES[face].look(direction), &FACES[face]);
+        let half = self.resolution as f32 / 2.0;
+        let column = ((p.x / p.z + 1.0) * half) as usize;
+        let row = ((p.y / p.z - shape.lowest) * half) as usize;
+        let is_inside = |at: usize, count: usize| at >= 1 && at + 1 < count;
+        if !is_inside(column, self.resolution) || !is_inside(row, shape.rows(self.resolution)) {
+            return None;
+        }
+        let item = self.items(face, row)[column];
+        let mut rows = (row - 1..=row + 1).map(|row| self.items(face, row));
+        let is_alone = rows.all(|row| row[column - 1..=column + 1].iter().all(|&k| k == item));
+        (is_alone && item != NOTHING).then_some(item)
     }
 
     /// The reciprocal depths that the cells of a row see.

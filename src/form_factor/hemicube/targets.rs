@@ -11,8 +11,8 @@ use crate::visibility::PatchHierarchy;
 /// nearest cache.
 const BLOCK: usize = 32;
 
-/// Fewer patches than this never outnumber a hemicube's cells, 16 along an edge or more.
-const MANY: usize = 3 * 16 * 16;
+/// Fewer patches than this never outnumber a hemicube's cells so much, 16 along an edge or more.
+const MANY: usize = super::CROWDED * 3 * 16 * 16;
 
 /// What hemicubes look at; made once for all of them.
 #[derive(Clone, Debug)]
