@@ -224,6 +224,11 @@ impl PatchLight {
 }
 
 impl Outlook<'_> {
+    /// True if more stands before a lamp than can be listed.
+    pub fn is_crowded(&self) -> bool {
+        self.candidates.iter().any(|candidate| matches!(candidate.blockers, Blockers::Many(_)))
+    }
+
     /// What arrives at a place.
     pub fn at(&self, place: DVec3) -> Direct {
         let Self { light, patch, candidates } = self;

@@ -277,11 +277,15 @@ fn judge(
         mesh[element].corners.iter().map(|&v| (mesh[v].position, irradiance(v))).collect();
     let surface = &world.surfaces.list[mesh.surface_of(element)];
     let verdict = oracle.judge((mesh, element), middle, light, 0.0);
-    // Shadows between the middles of small elements are smaller than any that will be shown.
-    if matches!(verdict, Some(Split::Quarters)) || oracle.is_small(mesh, element) {
+    if matches!(verdict, Some(Split::Quarters)) {
         return verdict;
     }
     let outlook = outlook(world, mesh, element);
+    // In crowds, shadows between the middles of small elements are as small as what makes them: they blur.
+    let is_crowded = world.groups.holds(mesh[element].patch) || outlook.is_crowded();
+    if is_crowded && oracle.is_small(mesh, element) {
+        return verdict;
+    }
     let probe_error = |(position, expected): (DVec2, Rgb)| {
         let Direct { irradiance, .. } = outlook.at(surface.plane.lift(position));
         strength(reflectance * (irradiance - expected))

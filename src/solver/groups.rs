@@ -83,6 +83,11 @@ impl Groups {
         self.members.len()
     }
 
+    /// Number of patches.
+    pub(super) fn patches(&self) -> usize {
+        self.of.len()
+    }
+
     /// The patches of a group.
     pub(super) fn members(&self, group: usize) -> &[PatchId] {
         &self.members[group]

@@ -160,10 +160,10 @@ fn a_million_rays_err_a_third_of_a_plain_hemicube_at_most() {
 #[test]
 fn a_hemicube_of_fewer_cells_than_patches_looks_by_rays() {
     let scene = furnished_room(&blocks());
-    let mesh = mesh_of(&scene, 60.0);
+    let mesh = mesh_of(&scene, 130.0);
     let coarse = mesh_of(&scene, 6.0);
     let (occluders, delta) = (Occluders::new(&surfaces_of(&scene)), DeltaFactors::new(32));
-    assert!(mesh.patches.len() > 3 * 32 * 32, "only {} patches", mesh.patches.len());
+    assert!(mesh.patches.len() > 4 * 3 * 32 * 32, "only {} patches", mesh.patches.len());
     let (fine, rough) = (Targets::new(&mesh.patches), Targets::new(&coarse.patches));
     let by_surface = |mesh: &Mesh, sights: &[hemicube::Sight]| {
         let mut factors = vec![0.0; 1 + mesh.patches.last().map_or(0, |p| p.surface as usize)];

@@ -44,11 +44,6 @@ impl Cells {
         Self { resolution, stride, depth, item }
     }
 
-    /// Number of cells.
-    pub(super) fn len(&self) -> usize {
-        3 * self.resolution * self.resolution
-    }
-
     /// Cells along the edge of the top face.
     pub(super) fn resolution(&self) -> usize {
         self.resolution

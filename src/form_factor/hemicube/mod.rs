@@ -16,6 +16,7 @@ mod delta;
 mod element_map;
 mod elements;
 mod packets;
+mod probe;
 mod raster;
 mod targets;
 
@@ -24,7 +25,7 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::contour::point_to_polygon;
 use crate::mesh::PatchId;
-use crate::visibility::{HalfSpace, Occluders, PatchHierarchy};
+use crate::visibility::{Occluders, PatchHierarchy};
 
 pub use delta::DeltaFactors;
 pub use element_map::ElementMap;
@@ -43,8 +44,10 @@ const HAIR: f64 = 1e-11;
 /// leaves.
 const CROWDED: usize = 4;
 
-/// What is met before this share of the way to a place is surely before it.
-const BEFORE: f64 = 0.99;
+/// True if so many patches outnumber a hemicube's cells, with so many along its edge, by so much that it looks by rays.
+pub(crate) fn is_by_rays(patches: usize, resolution: usize) -> bool {
+    patches > CROWDED * 3 * resolution * resolution
+}
 
 /// Factor on the nearness of backs: of two faces back to back in one place, the front one must win
 /// over rounding.
@@ -142,8 +145,8 @@ impl<'a> Hemicube<'a> {
     pub fn look(&mut self, (eye, normal): (DVec3, DVec3), turn: f64) -> &Self {
         self.eye = eye;
         self.frame = frame(normal, turn);
-        let is_crowded = self.targets.len() > CROWDED * self.cells.len();
-        self.rays = self.targets.hierarchy().filter(|_| is_crowded);
+        let by_rays = is_by_rays(self.targets.len(), self.cells.resolution());
+        self.rays = self.targets.hierarchy().filter(|_| by_rays);
         self.arch.dispatch(Look(self));
         if self.rays.is_some() {
             self.weigh_rays();
@@ -329,25 +332,6 @@ impl<'a> Hemicube<'a> {
             },
         );
         (covered > 0.0).then(|| f64::from(kept / covered).min(1.0))
-    }
-
-    /// Whether the middle of what is above the horizon of a polygon that covers no cell's centre is
-    /// seen, 0 or 1.
-    fn glimpse(&self, corners: &[DVec3]) -> f64 {
-        let above = HalfSpace::new(self.eye, self.frame.row(2)).clip(corners);
-        let middle = above.iter().sum::<DVec3>() / above.len().max(1) as f64;
-        let is_seen = || !self.is_surely_hidden(middle) && !self.occluders.blocks(self.eye, middle);
-        f64::from(u8::from(!above.is_empty() && is_seen()))
-    }
-
-    /// True if all cells around the direction of a place above the horizon see one patch, and it hides the place.
-    fn is_surely_hidden(&self, place: DVec3) -> bool {
-        let way = place - self.eye;
-        let Some(item) = self.cells.item_around((self.frame * way).as_vec3()) else { return false };
-        // The share of the way at which the patch's plane is met.
-        let slope = self.targets.normal(item as usize).dot(way);
-        let met = -self.targets.height(item as usize, self.eye) / slope;
-        met > 0.0 && met < BEFORE
     }
 }
 
