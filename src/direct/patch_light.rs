@@ -251,7 +251,7 @@ struct Evaluation<'a> {
     light: &'a PatchLight,
     receiver: (DVec3, DVec3),
     known: Direct,
-    /// Lamps that more may stand before than is listed, or too much to be cut out.
+    /// Lamps that something may stand before.
     open: SmallVec<[(u32, &'a Blockers, View<'a>); 2]>,
     points: Pool,
     evaluations: u64,
@@ -275,7 +275,6 @@ impl<'a> Evaluation<'a> {
             let seen = match (lamps.rows, blockers) {
                 _ if blockers.is_clear() => Some(view.all()),
                 (Some(rows), _) => Some(view.sampled_evenly(occluders, rows)),
-                (None, Blockers::Few(_)) => view.exact(occluders, blockers, CROWDED),
                 (None, _) => None,
             };
             match seen {
@@ -304,34 +303,46 @@ impl<'a> Evaluation<'a> {
 
     /// All light, once errors are known that do not matter where so much arrives at least, W/m².
     fn finish(mut self, tolerated: impl Fn(f64) -> f64) -> Direct {
-        let PatchLight { lamps, occluders, .. } = self.light;
-        let error = tolerated(strength(self.known.irradiance));
-        let open = std::mem::take(&mut self.open);
-        let share = SHARE * error;
         let mut pool = std::mem::take(&mut self.points);
-        for (number, blockers, view) in &open {
-            let sent = strength(view.unoccluded());
-            if sent <= POOLED * error {
+        let mut open = std::mem::take(&mut self.open);
+        let error = tolerated(strength(self.known.irradiance));
+        open.retain(|(_, blockers, view)| {
+            let is_worth_it = strength(view.unoccluded()) > POOLED * error;
+            let exact = (is_worth_it && !matches!(blockers, Blockers::Many(_)))
+                .then(|| view.exact(&self.light.occluders, blockers, CROWDED));
+            exact.flatten().map(|seen| self.take(view, seen)).is_none()
+        });
+        let error = tolerated(strength(self.known.irradiance));
+        for (number, blockers, view) in open {
+            if strength(view.unoccluded()) > POOLED * error {
+                let seen = self.crowded(&view, blockers, error);
+                self.take(&view, seen);
+            } else {
                 self.known.unoccluded += view.unoccluded();
                 let middle = view.polygon.iter().sum::<DVec3>() / view.polygon.len() as f64;
-                pool.push(*number, view.unoccluded(), middle);
-                continue;
+                pool.push(number, view.unoccluded(), middle);
             }
-            // The more a lamp sends, the more may be cut out of it before rays would do as well.
-            let most = (SHADOWS * sent / error.max(f64::MIN_POSITIVE)) as usize;
-            let exact = (sent > EXACT * error).then(|| view.exact(occluders, blockers, most));
-            let exact = exact.flatten();
-            let seen = exact.unwrap_or_else(|| view.sampled(occluders, share / sent * view.weight));
-            self.take(view, seen);
         }
+        let PatchLight { lamps, occluders, .. } = self.light;
         let sees = |lamp: u32, at: DVec3| {
             let is_own = |surface| lamps.list[lamp as usize].is_part(surface);
             !occluders.blocks_beyond(self.receiver.0, at, is_own)
         };
-        let (light, rays) = pool.shine(share, sees);
+        let (light, rays) = pool.shine(SHARE * error, sees);
         self.known.irradiance += light;
         lamps.tally.add(self.evaluations, self.rays + rays);
         self.known
+    }
+
+    /// What is seen of a lamp that much may stand before.
+    fn crowded(&self, view: &View<'_>, blockers: &Blockers, error: f64) -> Seen {
+        let occluders = &self.light.occluders;
+        let sent = strength(view.unoccluded());
+        // The more a lamp sends, the more may be cut out of it before rays would do as well.
+        let most = (SHADOWS * sent / error.max(f64::MIN_POSITIVE)) as usize;
+        let exact = (sent > EXACT * error).then(|| view.exact(occluders, blockers, most));
+        let sampled = || view.sampled(occluders, SHARE * error / sent * view.weight);
+        exact.flatten().unwrap_or_else(sampled)
     }
 }
 
