@@ -147,7 +147,7 @@ impl Finder<'_> {
     /// The candidates of a patch by itself, exact but for what is behind its borders.
     fn of_patch(&self, around: &[Candidate], patch: &Patch) -> Vec<Candidate> {
         let receiver = Facet::new(&patch.corners, patch.normal);
-        of_polygon((self.lamps, self.occluders), around, receiver)
+        of_polygon((self.lamps, self.occluders), around, receiver, |_| true)
     }
 
     /// Of the candidates of what is around some patches, those of the patches together.
@@ -178,15 +178,18 @@ impl Finder<'_> {
     }
 }
 
-/// Of the candidates of what is around a polygon, those of the polygon itself.
+/// Of the candidates of what is around a polygon, those of the polygon itself; what stands before lamps that do not
+/// matter is left as it is.
 pub(super) fn of_polygon(
     (lamps, occluders): (&Lamps, &Occluders),
     around: &[Candidate],
     receiver: Facet<'_>,
+    matters: impl Fn(&Lamp) -> bool,
 ) -> Vec<Candidate> {
     let reaches = |candidate: &&Candidate| lamps.list[candidate.lamp as usize].may_reach(receiver);
     let (reaching, body) = (around.iter().filter(reaches), Body::polygon(receiver));
-    unhidden((lamps, occluders), reaching, &body, |lamp| lamp.body_above(receiver))
+    let source = |lamp: &Lamp| if matters(lamp) { lamp.body_above(receiver) } else { None };
+    unhidden((lamps, occluders), reaching, &body, source)
 }
 
 /// Candidates, with what may hide them from a receiver; those that one occluder hides are left out.

@@ -61,9 +61,7 @@ impl Shining<'_> {
         numbers: impl Iterator<Item = u32>,
     ) -> Vec<Line> {
         let mut lines = Vec::new();
-        if self.most > self.least {
-            numbers.for_each(|number| self.lines_by(occluders, number, &mut lines));
-        }
+        numbers.for_each(|number| self.lines_by(occluders, number, &mut lines));
         lines
     }
 

@@ -125,7 +125,11 @@ impl PatchLight {
             return self.on(patch);
         }
         let receiver = Facet::new(corners, self.normals[patch.index()]);
-        let own = candidates::of_polygon((&self.lamps, &self.occluders), around, receiver);
+        // Others will be looked at together, by a ray or none.
+        let least = 0.5 * POOLED * self.tolerated.error(patch, 0.0);
+        let matters = |lamp: &Lamp| most_by(lamp, receiver) >= least;
+        let scene = (&self.lamps, &self.occluders);
+        let own = candidates::of_polygon(scene, around, receiver, matters);
         Outlook { light: self, patch, candidates: Cow::Owned(own) }
     }
 
@@ -186,11 +190,14 @@ impl PatchLight {
             let Some(above) = lamp.above(receiver).filter(|_| !lamp.profile.is_sky()) else {
                 continue;
             };
+            let most = most_by(source, receiver);
+            if most <= least {
+                continue;
+            }
             let body = Body::polygon(Facet { corners: &above, plane: lamp.front });
             let bodies = (&body, &Body::polygon(receiver));
             let between = self.occluders.numbers_in(blockers, bodies, usize::MAX);
             let crowd: Crowd<'_> = (between.len() > MANY).then_some((&self.rims, shortest));
-            let most = most_by(source, receiver);
             let shining = Shining { number: *number, lamp, above: &above, receiver, most, least };
             lines.extend(shining.lines((&self.occluders, crowd), between.into_iter()));
         }
@@ -346,8 +353,11 @@ impl<'a> Evaluation<'a> {
     }
 }
 
-/// The most irradiance by a lamp at the corners and in the middle of a receiver, W/m².
+/// The most irradiance by a lamp at the corners and in the middle of a receiver, W/m²; any, if it has no surface.
 fn most_by(lamp: &Lamp, receiver: Facet<'_>) -> f64 {
+    if matches!(lamp, Lamp::Point(_)) {
+        return f64::INFINITY;
+    }
     let corners = receiver.corners;
     let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
     let views = corners.iter().chain([&middle]).filter_map(|&at| {
