@@ -14,7 +14,7 @@ use super::pool::Pool;
 use super::rims::Rims;
 use super::{Lamp, Lamps, Seen, View, punctual};
 use crate::colour::Rgb;
-use crate::mesh::{Direct, Mesh, PatchId, Vertex};
+use crate::mesh::{Direct, Mesh, PatchId};
 use crate::scene::area_vector;
 use crate::visibility::{Blockers, Body, CROWDED, Facet, Occluders};
 
@@ -148,11 +148,6 @@ impl PatchLight {
         self.candidates.of(patch).iter().filter_map(sent).sum()
     }
 
-    /// What arrives at vertices, in their order.
-    pub fn at_vertices(&self, vertices: &[&Vertex]) -> Vec<Direct> {
-        vertices.par_iter().map(|vertex| self.at(vertex.patch, vertex.site)).collect()
-    }
-
     /// What arrives at a place on a patch from some of the polygons, chosen by their numbers, W/m²; `None` where it
     /// is not known exactly.
     pub(crate) fn exactly(
@@ -220,10 +215,8 @@ impl PatchLight {
         let irradiance = |&patch: &PatchId| {
             let corners = &mesh[patch].corners;
             let place = corners.iter().sum::<DVec3>() / corners.len() as f64;
-            let mut work = Evaluation::new(self, (place, self.normals[patch.index()]));
-            self.candidates.of(patch).iter().for_each(|candidate| work.add(candidate));
             // A ray or two for each lamp.
-            strength(work.finish(|here| here.max(f64::MIN_POSITIVE)).irradiance)
+            strength(self.on(patch).within(place, |here| here.max(f64::MIN_POSITIVE)).irradiance)
         };
         let found: Vec<f64> = chosen.par_iter().map(irradiance).collect();
         found.iter().sum::<f64>() / found.len().max(1) as f64
@@ -238,10 +231,15 @@ impl Outlook<'_> {
 
     /// What arrives at a place.
     pub fn at(&self, place: DVec3) -> Direct {
-        let Self { light, patch, candidates } = self;
-        let mut work = Evaluation::new(light, (place, light.normals[patch.index()]));
-        candidates.iter().for_each(|candidate| work.add(candidate));
-        work.finish(|here| light.tolerated.error(*patch, here))
+        self.within(place, |here| self.light.tolerated.error(self.patch, here))
+    }
+
+    /// The same with errors as are `tolerated` where at least so much arrives, W/m².
+    fn within(&self, place: DVec3, tolerated: impl Fn(f64) -> f64) -> Direct {
+        let normal = self.light.normals[self.patch.index()];
+        let mut work = Evaluation::new(self.light, (place, normal));
+        self.candidates.iter().for_each(|candidate| work.add(candidate));
+        work.finish(tolerated)
     }
 }
 
@@ -279,10 +277,9 @@ impl<'a> Evaluation<'a> {
             self.add_point(*number, point, blockers);
         } else if let Some(view) = lamp.view(self.receiver) {
             self.evaluations += 1;
-            let seen = match (lamps.rows, blockers) {
+            let seen = match lamps.rows {
                 _ if blockers.is_clear() => Some(view.all()),
-                (Some(rows), _) => Some(view.sampled_evenly(occluders, rows)),
-                (None, _) => None,
+                rows => rows.map(|rows| view.sampled_evenly(occluders, rows)),
             };
             match seen {
                 Some(seen) => self.take(&view, seen),

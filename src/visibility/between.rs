@@ -30,7 +30,8 @@ impl Occluders {
             near.push(&self.polygons[number as usize]);
             true
         });
-        let hides_all = near.iter().any(|occluder| hides(occluder, a, b, tolerance));
+        let hides_all =
+            near.iter().any(|occluder| hides(occluder, a.corners, b.corners, tolerance));
         let along = (b.corners[0] - a.corners[0]).normalize_or_zero();
         let parts = near.iter().filter_map(|occluder| inside(occluder, shaft.sides(), tolerance));
         // What hides most comes first: it leaves the others little to cut.
@@ -120,7 +121,7 @@ pub(super) fn inside(occluder: &Occluder, hull: &[HalfSpace], tolerance: f64) ->
     (corners.len() >= 3).then_some(Occluder { corners, ..*occluder })
 }
 
-/// True if an occluder crosses all segments between corners, and so, being convex, all segments.
-fn hides(occluder: &Occluder, a: Facet<'_>, b: Facet<'_>, tolerance: f64) -> bool {
-    a.corners.iter().all(|&p| b.corners.iter().all(|&q| occluder.crosses(p, q, tolerance)))
+/// True if an occluder crosses all segments between corners of two bodies, and so, being convex, all segments.
+pub(super) fn hides(occluder: &Occluder, a: &[DVec3], b: &[DVec3], tolerance: f64) -> bool {
+    a.iter().all(|&p| b.iter().all(|&q| occluder.crosses(p, q, tolerance)))
 }

@@ -1,9 +1,8 @@
 //! What may stand in a shaft, found once and handed down to the shafts inside of it.
 
-use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::between::inside;
+use super::between::{hides, inside};
 use super::shaft::{Body, Shaft};
 use super::{Occluder, Occluders};
 
@@ -170,12 +169,8 @@ impl<F: Fn(u32) -> bool> Search<'_, F> {
         self.shaft.meets_box(low, high, self.occluders.tolerance)
     }
 
-    /// True if an occluder crosses all segments between corners, and so, being convex, all segments.
     fn hides_all(&self, occluder: &Occluder) -> bool {
         let (a, b) = self.bodies;
-        let crosses = |p: &DVec3| {
-            b.corners().iter().all(|&q| occluder.crosses(*p, q, self.occluders.tolerance))
-        };
-        a.corners().iter().all(crosses)
+        hides(occluder, a.corners(), b.corners(), self.occluders.tolerance)
     }
 }
