@@ -2,7 +2,7 @@
 // Scenes solved into meshes and lightmaps, our own pictures of them, and scenes.json with their cameras.
 
 import { execFileSync } from "node:child_process";
-import { mkdirSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 import { writeTextured } from "./textured.mjs";
@@ -19,12 +19,19 @@ const SCENES = [
   { name: "textured", file: writeTextured(directory), eye: [0.2, 1.7, 2.8], target: [1.7, 0.7, 1.0], fov: 60 },
 ].map((scene) => ({ ...scene, width: 480, height: 360 }));
 
+// The exposure value that a GLB's colours were made with; a picture from another eye would find its own.
+function exposure(path) {
+  const bytes = readFileSync(path);
+  return JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString()).asset.extras.exposure.ev;
+}
+
 const run = (...options) => execFileSync(program, options.map(String), { stdio: ["ignore", "ignore", "inherit"] });
 for (const { name, file, eye, target, fov, width, height } of SCENES) {
   const place = (ending) => join(directory, `${name}${ending}`);
   run("solve", file, "--quality", "draft", "-q", "-o", place(".glb"), "--lightmap", 1024);
+  const view = ["--eye", eye, "--target", target, "--fov", fov, "--size", `${width}x${height}`, "--exposure", exposure(place(".glb"))];
   for (const ending of [".png", ".exr"]) {
-    run("render", place(".glb"), "-q", "-o", place(ending), "--eye", eye, "--target", target, "--fov", fov, "--size", `${width}x${height}`);
+    run("render", place(".glb"), "-q", "-o", place(ending), ...view);
   }
 }
 writeFileSync(join(directory, "scenes.json"), JSON.stringify(SCENES));
