@@ -46,7 +46,8 @@ pub struct Settings {
     /// Factor on the light that a patch sends at a time (above 0, below 2; default 1): less is
     /// under-, more over-relaxation.
     pub omega: f64,
-    /// Cells along the edge of a hemicube's top face (32..=1024, even; default 128, of drafts 64).
+    /// Most cells along the edge of a shooter's hemicube (32..=1024, even; default 128, of drafts 64); where patches
+    /// outnumber them, fewer if the tolerance admits it.
     pub hemicube_resolution: u32,
 }
 

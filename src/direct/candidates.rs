@@ -30,6 +30,8 @@ pub(super) struct Candidate {
     /// Index into [`Lamps::list`].
     pub(super) lamp: u32,
     pub(super) blockers: Blockers,
+    /// No place in the region gets more from it, mean of the channels, W/m².
+    pub(super) most: f64,
 }
 
 /// The candidates of all patches.
@@ -54,7 +56,7 @@ impl Candidates {
         let tree = hierarchy(&boxes);
         let finder = Finder { lamps, occluders, mesh, tree: &tree, large: LARGE * longest };
         let all = (0..lamps.list.len() as u32)
-            .map(|lamp| Candidate { lamp, blockers: occluders.all() })
+            .map(|lamp| Candidate { lamp, blockers: occluders.all(), most: f64::INFINITY })
             .collect();
         let mut parts = Vec::new();
         if !mesh.patches.is_empty() {
@@ -147,7 +149,7 @@ impl Finder<'_> {
     /// The candidates of a patch by itself, exact but for what is behind its borders.
     fn of_patch(&self, around: &[Candidate], patch: &Patch) -> Vec<Candidate> {
         let receiver = Facet::new(&patch.corners, patch.normal);
-        of_polygon((self.lamps, self.occluders), around, receiver, |_| true)
+        of_polygon((self.lamps, self.occluders), around.iter(), receiver, 0.0)
     }
 
     /// Of the candidates of what is around some patches, those of the patches together.
@@ -159,7 +161,7 @@ impl Finder<'_> {
             patches.iter().any(|&patch| reaches(&self.mesh[patch]))
         });
         let body = Body::cuboid(low, high);
-        unhidden((self.lamps, self.occluders), reaching, &body, Lamp::body)
+        unhidden((self.lamps, self.occluders), reaching, &body, |lamp, _| lamp.body())
     }
 
     fn patches_under(&self, node: u32) -> Vec<PatchId> {
@@ -178,17 +180,19 @@ impl Finder<'_> {
     }
 }
 
-/// Of the candidates of what is around a polygon, those of the polygon itself; what stands before lamps that do not
-/// matter is left as it is.
-pub(super) fn of_polygon(
+/// Of the candidates of what is around a polygon, those of the polygon itself; what stands before lamps of which less
+/// than `least` can arrive, W/m², is left as it is.
+pub(super) fn of_polygon<'c>(
     (lamps, occluders): (&Lamps, &Occluders),
-    around: &[Candidate],
+    around: impl Iterator<Item = &'c Candidate>,
     receiver: Facet<'_>,
-    matters: impl Fn(&Lamp) -> bool,
+    least: f64,
 ) -> Vec<Candidate> {
     let reaches = |candidate: &&Candidate| lamps.list[candidate.lamp as usize].may_reach(receiver);
-    let (reaching, body) = (around.iter().filter(reaches), Body::polygon(receiver));
-    let source = |lamp: &Lamp| if matters(lamp) { lamp.body_above(receiver) } else { None };
+    let (reaching, body) = (around.filter(reaches), Body::polygon(receiver));
+    let source = |lamp: &Lamp, most: f64| {
+        if most < least { None } else { lamp.body_above(receiver) }
+    };
     unhidden((lamps, occluders), reaching, &body, source)
 }
 
@@ -197,18 +201,18 @@ fn unhidden<'c>(
     (lamps, occluders): (&Lamps, &Occluders),
     candidates: impl Iterator<Item = &'c Candidate>,
     receiver: &Body,
-    source: impl Fn(&Lamp) -> Option<Body>,
+    source: impl Fn(&Lamp, f64) -> Option<Body>,
 ) -> Vec<Candidate> {
-    let narrowed = |Candidate { lamp: number, blockers }: &Candidate| {
+    let narrowed = |Candidate { lamp: number, blockers, .. }: &Candidate| {
         let lamp = &lamps.list[*number as usize];
-        let blockers = match source(lamp) {
-            Some(source) if !blockers.is_clear() => {
-                let ignored = |surface| lamp.is_part(surface);
-                occluders.narrowed(blockers, (&source, receiver), ignored)
-            }
-            _ => blockers.clone(),
+        let most = lamp.most_on(receiver);
+        let source = if blockers.is_clear() { None } else { source(lamp, most) };
+        let ignored = |surface| lamp.is_part(surface);
+        let blockers = match source {
+            Some(source) => occluders.narrowed(blockers, (&source, receiver), ignored),
+            None => blockers.clone(),
         };
-        (blockers != Blockers::Opaque).then_some(Candidate { lamp: *number, blockers })
+        (blockers != Blockers::Opaque).then_some(Candidate { lamp: *number, blockers, most })
     };
     candidates.filter_map(narrowed).collect()
 }

@@ -30,7 +30,7 @@ pub(super) struct Globe {
     fronts: Vec<HalfSpace>,
     /// By edge: its ends among the corners, the facet to its left and that to its right.
     edges: Vec<[u32; 4]>,
-    exitance: Rgb,
+    pub(super) exitance: Rgb,
     pub(super) low: DVec3,
     pub(super) high: DVec3,
 }

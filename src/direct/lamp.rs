@@ -1,12 +1,14 @@
 //! The kinds of lamps, and how regions and places see them.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 
 use super::RadianceProfile;
 use super::globe::Globe;
-use super::view::{Receiver, View};
+use super::view::{FAR, Receiver, View};
 use crate::colour::Rgb;
-use crate::scene::Light;
+use crate::scene::{Light, area_vector};
 use crate::visibility::{Body, Facet, HalfSpace, Polygon};
 
 /// An emitter.
@@ -49,6 +51,52 @@ impl Lamp {
             }
             other => other.body(),
         }
+    }
+
+    /// No place on a body gets more than this, whatever stands between, as the mean of the channels, W/m².
+    ///
+    /// E ≤ M min(1, A cos cos / (π d²)), by the greatest cosines and the shortest distance between boxes, after
+    /// [Smits, Arvo and Greenberg 1994]; of lights without a surface and of skies, no bound is known.
+    ///
+    /// [Smits, Arvo and Greenberg 1994]: https://doi.org/10.1145/192161.192277
+    pub(super) fn most_on(&self, receiver: &Body) -> f64 {
+        let (exitance, area) = match self {
+            Self::Area(lamp) if !lamp.profile.is_sky() => {
+                (lamp.exitance, area_vector(&lamp.corners).length())
+            }
+            Self::Globe(globe) => {
+                (globe.exitance, 0.25 * PI * globe.low.distance_squared(globe.high))
+            }
+            _ => return f64::INFINITY,
+        };
+        let Some(source) = self.body() else { return f64::INFINITY };
+        let [(low, high), (lowest, highest)] = [receiver.bounds(), source.bounds()];
+        let distance = (lowest - high).max(low - highest).max(DVec3::ZERO).length();
+        let cosine = |front: Option<HalfSpace>, body: &Body| {
+            let height = |plane: HalfSpace| {
+                body.corners().iter().map(|&corner| plane.depth(corner)).fold(0.0, f64::max)
+            };
+            front.map_or(1.0, |plane| (height(plane) / distance).min(1.0))
+        };
+        if distance <= 0.0 {
+            return exitance.element_sum() / 3.0;
+        }
+        let cosines = cosine(receiver.front(), &source) * cosine(source.front(), receiver);
+        exitance.element_sum() / 3.0 * (area * cosines / (PI * distance * distance)).min(1.0)
+    }
+
+    /// What arrives at a place if nothing stands between, W/m², and from where, by the middle of a polygon that looks
+    /// small; `None` of all others.
+    pub(super) fn glance(&self, (place, normal): Receiver) -> Option<(Rgb, DVec3)> {
+        let Self::Area(lamp) = self else { return None };
+        let middle = lamp.corners.iter().sum::<DVec3>() / lamp.corners.len() as f64;
+        let (way, area) = (middle - place, area_vector(&lamp.corners).length());
+        let square = way.length_squared();
+        if area > FAR * square || lamp.profile.is_sky() {
+            return None;
+        }
+        let cosines = way.dot(normal).max(0.0) * (-way.dot(lamp.front.normal)).max(0.0);
+        Some((lamp.exitance * (area * cosines / (PI * square * square)), middle))
     }
 
     /// False only if no place on the receiver is lit, whatever stands between.

@@ -1,7 +1,6 @@
 //! Direct light on the patches of a mesh: exact where it can be seen, by rays in crowds, as many as what may be hidden
 //! is worth.
 
-use std::borrow::Cow;
 use std::ops::ControlFlow;
 
 use glam::DVec3;
@@ -35,6 +34,9 @@ const SHADOWS: f64 = 2.0;
 /// Lamps that send less than this share of a tolerated error are looked at together.
 const POOLED: f64 = 0.5;
 
+/// Those that can send no more than this share of it anywhere on a patch are, by what their middles send.
+const FAINT: f64 = 0.5 * POOLED;
+
 /// So many occluders before a lamp are cut out of it sooner than they are looked through.
 const LISTED: usize = 4;
 
@@ -61,7 +63,12 @@ pub struct PatchLight {
 pub struct Outlook<'a> {
     light: &'a PatchLight,
     patch: PatchId,
-    candidates: Cow<'a, [Candidate]>,
+    /// Those of the patch.
+    around: &'a [Candidate],
+    /// Those of a part that are more than faint, in place of the patch's.
+    own: Option<Vec<Candidate>>,
+    /// Lamps that can send no more than this are faint: looked at together, whatever is before them, W/m².
+    faint: f64,
 }
 
 /// Errors of irradiance that do not matter.
@@ -114,23 +121,22 @@ impl PatchLight {
 
     /// The light that all places on a patch may get.
     pub fn on(&self, patch: PatchId) -> Outlook<'_> {
-        Outlook { light: self, patch, candidates: Cow::Borrowed(self.candidates.of(patch)) }
+        let faint = FAINT * self.tolerated.error(patch, 0.0);
+        Outlook { light: self, patch, around: self.candidates.of(patch), own: None, faint }
     }
 
     /// The light that places on a convex part of a patch may get: looked through once more where much stands in its
     /// way, so that the more places are evaluated the better it pays.
     pub fn on_part(&self, patch: PatchId, corners: &[DVec3]) -> Outlook<'_> {
-        let around = self.candidates.of(patch);
-        if around.iter().all(|candidate| candidate.blockers.are_few(LISTED)) {
-            return self.on(patch);
+        let whole = self.on(patch);
+        let around = || whole.around.iter().filter(|candidate| candidate.most >= whole.faint);
+        if around().all(|candidate| candidate.blockers.are_few(LISTED)) {
+            return whole;
         }
         let receiver = Facet::new(corners, self.normals[patch.index()]);
-        // Others will be looked at together, by a ray or none.
-        let least = 0.5 * POOLED * self.tolerated.error(patch, 0.0);
-        let matters = |lamp: &Lamp| most_by(lamp, receiver) >= least;
         let scene = (&self.lamps, &self.occluders);
-        let own = candidates::of_polygon(scene, around, receiver, matters);
-        Outlook { light: self, patch, candidates: Cow::Owned(own) }
+        let own = candidates::of_polygon(scene, around(), receiver, whole.faint);
+        Outlook { own: Some(own), ..whole }
     }
 
     /// What arrives at a place on a patch.
@@ -141,11 +147,18 @@ impl PatchLight {
     /// What would arrive at a place on a patch if nothing stood between, W/m².
     pub fn unoccluded(&self, patch: PatchId, place: DVec3) -> Rgb {
         let receiver = (place, self.normals[patch.index()]);
-        let sent = |candidate: &Candidate| match &self.lamps.list[candidate.lamp as usize] {
-            Lamp::Point(light) => Some(punctual::irradiance(light, receiver.0, receiver.1)?.0),
-            lamp => Some(lamp.view(receiver)?.unoccluded()),
+        let Outlook { around, faint, .. } = self.on(patch);
+        let sent = |candidate: &Candidate| {
+            let lamp = &self.lamps.list[candidate.lamp as usize];
+            let glance = (candidate.most < faint).then(|| lamp.glance(receiver)).flatten();
+            match lamp {
+                Lamp::Point(light) => Some(punctual::irradiance(light, place, receiver.1)?.0),
+                lamp => glance
+                    .map(|(light, _)| light)
+                    .or_else(|| Some(lamp.view(receiver)?.unoccluded())),
+            }
         };
-        self.candidates.of(patch).iter().filter_map(sent).sum()
+        around.iter().filter_map(sent).sum()
     }
 
     /// What arrives at a place on a patch from some of the polygons, chosen by their numbers, W/m²; `None` where it
@@ -159,7 +172,9 @@ impl PatchLight {
         let receiver = (place, self.normals[patch.index()]);
         let candidates = self.candidates.of(patch).iter();
         let mut light = Rgb::ZERO;
-        for Candidate { lamp, blockers } in candidates.filter(|candidate| chosen(candidate.lamp)) {
+        for Candidate { lamp, blockers, .. } in
+            candidates.filter(|candidate| chosen(candidate.lamp))
+        {
             let Some(view) = self.lamps.list[*lamp as usize].view(receiver) else { continue };
             let seen = match self.lamps.rows {
                 Some(rows) => view.sampled_evenly(&self.occluders, rows),
@@ -179,7 +194,8 @@ impl PatchLight {
         let receiver = Facet::new(corners, self.normals[patch.index()]);
         let shortest = LEAST_EDGE * area_vector(corners).length().sqrt();
         let mut lines = Vec::new();
-        for Candidate { lamp: number, blockers } in self.candidates.of(patch) {
+        let candidates = self.candidates.of(patch).iter();
+        for Candidate { lamp: number, blockers, .. } in candidates.filter(|c| c.most > least) {
             let source = &self.lamps.list[*number as usize];
             let Lamp::Area(lamp) = source else { continue };
             let Some(above) = lamp.above(receiver).filter(|_| !lamp.profile.is_sky()) else {
@@ -226,7 +242,7 @@ impl PatchLight {
 impl Outlook<'_> {
     /// True if more stands before a lamp than can be listed.
     pub fn is_crowded(&self) -> bool {
-        self.candidates.iter().any(|candidate| matches!(candidate.blockers, Blockers::Many(_)))
+        self.candidates().any(|candidate| matches!(candidate.blockers, Blockers::Many(_)))
     }
 
     /// What arrives at a place.
@@ -238,8 +254,19 @@ impl Outlook<'_> {
     fn within(&self, place: DVec3, tolerated: impl Fn(f64) -> f64) -> Direct {
         let normal = self.light.normals[self.patch.index()];
         let mut work = Evaluation::new(self.light, (place, normal));
-        self.candidates.iter().for_each(|candidate| work.add(candidate));
+        for candidate in self.candidates() {
+            if candidate.most >= self.faint || !work.add_faint(candidate) {
+                work.add(candidate);
+            }
+        }
         work.finish(tolerated)
+    }
+
+    /// Those that shine here: the strong ones in their order, then those that are faint on all of the patch.
+    fn candidates(&self) -> impl Iterator<Item = &Candidate> {
+        let faint = self.own.as_ref().map_or(&[][..], |_| self.around).iter();
+        let strong = self.own.as_deref().unwrap_or(self.around);
+        strong.iter().chain(faint.filter(|candidate| candidate.most < self.faint))
     }
 }
 
@@ -258,19 +285,42 @@ struct Evaluation<'a> {
     known: Direct,
     /// Lamps that something may stand before.
     open: SmallVec<[(u32, &'a Blockers, View<'a>); 2]>,
-    points: Pool,
+    pool: Pool,
     evaluations: u64,
     rays: u64,
 }
 
 impl<'a> Evaluation<'a> {
     fn new(light: &'a PatchLight, receiver: (DVec3, DVec3)) -> Self {
-        let (known, open, points) = (Direct::default(), SmallVec::new(), Pool::default());
-        Self { light, receiver, known, open, points, evaluations: 0, rays: 0 }
+        let (known, open, pool) = (Direct::default(), SmallVec::new(), Pool::default());
+        Self { light, receiver, known, open, pool, evaluations: 0, rays: 0 }
+    }
+
+    /// Adds the light of a lamp that looks small and does not matter by itself; false if it looks large.
+    fn add_faint(&mut self, Candidate { lamp: number, blockers, .. }: &Candidate) -> bool {
+        let lamps = &self.light.lamps;
+        let glance = lamps.list[*number as usize].glance(self.receiver);
+        let Some((sent, middle)) = glance.filter(|_| lamps.rows.is_none()) else { return false };
+        if sent.max_element() > 0.0 {
+            self.evaluations += 1;
+            self.push(*number, sent, blockers, middle);
+        }
+        true
+    }
+
+    /// Takes the light of a lamp, if all is seen, or else puts it to those that are looked at together, by rays to
+    /// a place on it.
+    fn push(&mut self, number: u32, sent: Rgb, blockers: &Blockers, at: DVec3) {
+        self.known.unoccluded += sent;
+        if blockers.is_clear() {
+            self.known.irradiance += sent;
+        } else {
+            self.pool.push(number, sent, at);
+        }
     }
 
     /// Adds a lamp's light if it can be told at once.
-    fn add(&mut self, Candidate { lamp: number, blockers }: &'a Candidate) {
+    fn add(&mut self, Candidate { lamp: number, blockers, .. }: &'a Candidate) {
         let PatchLight { lamps, occluders, .. } = self.light;
         let lamp = &lamps.list[*number as usize];
         if let Lamp::Point(point) = lamp {
@@ -292,12 +342,7 @@ impl<'a> Evaluation<'a> {
         let (place, normal) = self.receiver;
         let Some((sent, source)) = punctual::irradiance(light, place, normal) else { return };
         self.evaluations += 1;
-        self.known.unoccluded += sent;
-        if blockers.is_clear() {
-            self.known.irradiance += sent;
-        } else {
-            self.points.push(number, sent, source.end(place, &self.light.occluders));
-        }
+        self.push(number, sent, blockers, source.end(place, &self.light.occluders));
     }
 
     fn take(&mut self, view: &View<'_>, seen: Seen) {
@@ -307,7 +352,6 @@ impl<'a> Evaluation<'a> {
 
     /// All light, once errors are known that do not matter where so much arrives at least, W/m².
     fn finish(mut self, tolerated: impl Fn(f64) -> f64) -> Direct {
-        let mut pool = std::mem::take(&mut self.points);
         let mut open = std::mem::take(&mut self.open);
         let error = tolerated(strength(self.known.irradiance));
         open.retain(|(_, blockers, view)| {
@@ -322,9 +366,8 @@ impl<'a> Evaluation<'a> {
                 let seen = self.crowded(&view, blockers, error);
                 self.take(&view, seen);
             } else {
-                self.known.unoccluded += view.unoccluded();
                 let middle = view.polygon.iter().sum::<DVec3>() / view.polygon.len() as f64;
-                pool.push(number, view.unoccluded(), middle);
+                self.push(number, view.unoccluded(), blockers, middle);
             }
         }
         let PatchLight { lamps, occluders, .. } = self.light;
@@ -332,7 +375,7 @@ impl<'a> Evaluation<'a> {
             let is_own = |surface| lamps.list[lamp as usize].is_part(surface);
             !occluders.blocks_beyond(self.receiver.0, at, is_own)
         };
-        let (light, rays) = pool.shine(SHARE * error, sees);
+        let (light, rays) = self.pool.shine(SHARE * error, sees);
         self.known.irradiance += light;
         lamps.tally.add(self.evaluations, self.rays + rays);
         self.known

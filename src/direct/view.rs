@@ -9,8 +9,8 @@ use crate::form_factor::contour::point_to_polygon;
 use crate::mesh::Direct;
 use crate::visibility::{Blockers, Facet, Occluders, Polygon};
 
-/// Triangles of a smaller area than this share of the squared distance are taken for points.
-const FAR: f64 = 0.01;
+/// Polygons of a smaller area than this share of the squared distance are taken for points.
+pub(super) const FAR: f64 = 0.01;
 
 /// Where light arrives: a place, m, and its unit normal.
 pub(super) type Receiver = (DVec3, DVec3);

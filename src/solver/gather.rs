@@ -6,6 +6,8 @@
 //!
 //! [Lischinski, Tampieri and Greenberg 1993]: https://doi.org/10.1145/166117.166143
 
+use std::ops::RangeInclusive;
+
 use glam::DVec3;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -18,20 +20,16 @@ use super::sources::{Piece, Sources};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::{
-    Cover, DeltaFactors, Hemicube, Sight, Targets, is_by_rays, turn,
+    Cover, DeltaFactors, Hemicube, Sight, Targets, enough_cells, turn,
 };
 use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
 
-/// Cells along the edge of the hemicubes over vertices: they measure visibility only, and vertices
+/// Fewest and most cells along the edge of the hemicubes over vertices: they measure visibility only, and vertices
 /// are many.
-const RESOLUTION: usize = 32;
-
-/// Fewer cells, and the tolerances from which on they will do, where that makes looks quicker. The error of visibility,
-/// 0.3 % at 32 cells, falls with the power 1.3 of their number.
-const COARSE: [(usize, f64); 2] = [(16, 0.061), (24, 0.034)];
+const CELLS: RangeInclusive<usize> = 16..=32;
 
 /// Deepest division of a leaf seen from close by.
 const DEEPEST: u32 = 6;
@@ -80,10 +78,7 @@ impl<'a> Gatherer<'a> {
         sources: Sources,
         fine: f64,
     ) -> Self {
-        let will_do = |(cells, tolerance): &&(usize, f64)| {
-            settings.tolerance >= *tolerance && is_by_rays(groups.patches(), *cells)
-        };
-        let resolution = COARSE.iter().find(will_do).map_or(RESOLUTION, |(cells, _)| *cells);
+        let resolution = enough_cells(groups.patches(), settings.tolerance, CELLS);
         let delta = DeltaFactors::new(resolution);
         Self {
             surfaces,

@@ -124,20 +124,26 @@ impl<F: Fn(u32) -> bool> Search<'_, F> {
         Blockers::Few(found)
     }
 
-    /// Opens nodes that reach into the shaft, in the order of the hierarchy, while they are few.
+    /// Opens nodes that reach into the shaft, the largest first and in their places, while they are few.
     fn under(&self, nodes: &[u32]) -> Blockers {
-        let mut open: SmallVec<[u32; 32]> =
-            nodes.iter().copied().filter(|&node| self.reaches(node)).collect();
+        let reached = |nodes: &[u32]| -> SmallVec<[(u32, f32); 32]> {
+            let reached = nodes.iter().filter(|&&node| self.reaches(node));
+            reached.map(|&node| (node, self.size(node))).collect()
+        };
+        let mut open = reached(nodes);
         while open.len() < NODES {
-            let Some(at) = self.largest(&open) else { break };
-            let first = self.node(open[at]).first_index;
-            let children = [first, first + 1];
-            let children: SmallVec<[u32; 2]> =
-                children.into_iter().filter(|&child| self.reaches(child)).collect();
+            let largest =
+                |best: usize, at: usize| if open[at].1 > open[best].1 { at } else { best };
+            let Some(at) = (0..open.len()).reduce(largest) else { break };
+            let (node, size) = open[at];
+            if size < 0.0 {
+                break;
+            }
+            let first = self.node(node).first_index;
             open.remove(at);
-            open.insert_many(at, children);
+            open.insert_many(at, reached(&[first, first + 1]));
         }
-        let leaves = || open.iter().map(|&node| self.node(node)).filter(|node| node.is_leaf());
+        let leaves = || open.iter().map(|&(node, _)| self.node(node)).filter(|node| node.is_leaf());
         let numbers =
             || leaves().flat_map(|node| node.first_index..node.first_index + node.prim_count);
         if leaves().count() == open.len() {
@@ -150,14 +156,17 @@ impl<F: Fn(u32) -> bool> Search<'_, F> {
             let occluder = &self.occluders.polygons[number as usize];
             !(self.ignored)(occluder.surface) && self.hides_all(occluder)
         };
-        if numbers().any(is_opaque) { Blockers::Opaque } else { Blockers::Many(open[..].into()) }
+        if numbers().any(is_opaque) {
+            Blockers::Opaque
+        } else {
+            Blockers::Many(open.iter().map(|&(node, _)| node).collect())
+        }
     }
 
-    /// The inner node with the largest box.
-    fn largest(&self, open: &[u32]) -> Option<usize> {
-        let size = |at: usize| self.node(open[at]).aabb().half_area();
-        let inner = (0..open.len()).filter(|&at| !self.node(open[at]).is_leaf());
-        inner.reduce(|best, at| if size(at) > size(best) { at } else { best })
+    /// Half of the area of an inner node's box, m²; of leaves, which are not opened, less than nothing.
+    fn size(&self, node: u32) -> f32 {
+        let node = self.node(node);
+        if node.is_leaf() { -1.0 } else { node.aabb().half_area() }
     }
 
     fn node(&self, index: u32) -> &obvhs::bvh2::node::Bvh2Node {

@@ -13,13 +13,13 @@ use obvhs::bvh2::node::Bvh2Node;
 use pulp::{Arch, Simd, WithSimd};
 use smallvec::SmallVec;
 
-use super::patches::{EDGE, PatchHierarchy, Quad};
+use super::patches::{EDGE, PatchHierarchy, View};
 
 /// Rays in a packet.
-pub const RAYS: usize = 8;
+pub const RAYS: usize = 16;
 
-/// No patch: the ray leaves the scene.
-pub const NOTHING: u32 = u32::MAX;
+/// No patch: the ray leaves the scene. As bits of a floating point number, this and all numbers of patches are in order.
+pub const NOTHING: u32 = 0x7f00_0000;
 
 /// One number for each ray.
 type Lanes = [f32; RAYS];
@@ -71,30 +71,37 @@ impl WithSimd for Cast<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let Self { scene, eye, packets } = self;
         let origin = (eye - scene.centre).as_vec3a();
         for packet in packets {
-            walk(scene, (eye, origin), packet);
+            walk(simd, scene, (eye, origin), packet);
         }
     }
 }
 
 /// Visits the nodes that a ray of the packet enters, near ones first.
 #[inline(always)]
-fn walk(scene: &PatchHierarchy, (eye, origin): (DVec3, Vec3A), packet: &mut Packet) {
+fn walk<S: Simd>(
+    simd: S,
+    scene: &PatchHierarchy,
+    (eye, origin): (DVec3, Vec3A),
+    packet: &mut Packet,
+) {
     let inverse = from_fn(|axis| from_fn(|ray| inverse(packet.directions[axis][ray])));
     let mut walk = Walk { origin, inverse, ends: [f32::INFINITY; RAYS] };
+    let mut last = f32::INFINITY;
     let mut stack: SmallVec<[(u32, f32); 64]> = SmallVec::new();
     let nodes = &scene.bvh.nodes[..];
-    let (mut index, mut entry) = (0, walk.entry(&nodes[0]));
+    let (mut index, mut entry) = (0, walk.entry(simd, &nodes[0]));
     loop {
         // Another node may have ended the rays since.
-        if entry < largest(&walk.ends) {
+        if entry < last {
             let node = &nodes[index as usize];
             let first = node.first_index;
             if !node.is_leaf() {
-                let entries = [first, first + 1].map(|child| walk.entry(&nodes[child as usize]));
+                let children = &nodes[first as usize..][..2];
+                let entries = [walk.entry(simd, &children[0]), walk.entry(simd, &children[1])];
                 let swap = entries[1] < entries[0];
                 let (near, far) = if swap { (first + 1, first) } else { (first, first + 1) };
                 let [enter_near, enter_far] = if swap { [entries[1], entries[0]] } else { entries };
@@ -105,9 +112,11 @@ fn walk(scene: &PatchHierarchy, (eye, origin): (DVec3, Vec3A), packet: &mut Pack
                 continue;
             }
             for quad in &scene.quads[first as usize..(first + node.prim_count) as usize] {
-                meet(quad, (eye, scene.hair), packet);
+                if let Some(view) = quad.seen(eye, scene.hair) {
+                    meet(simd, (&view, quad.patch), packet);
+                }
             }
-            walk.ends = packet.nearness.map(|nearness| 1.0 / nearness);
+            last = walk.end(simd, &packet.nearness);
         }
         let Some(next) = stack.pop() else { return };
         (index, entry) = next;
@@ -117,73 +126,104 @@ fn walk(scene: &PatchHierarchy, (eye, origin): (DVec3, Vec3A), packet: &mut Pack
 impl Walk {
     /// Where the first of the rays enters a node, infinite if none does before its end.
     #[inline(always)]
-    fn entry(&self, node: &Bvh2Node) -> f32 {
+    fn entry<S: Simd>(&self, simd: S, node: &Bvh2Node) -> f32 {
         let bounds = node.aabb();
-        let low = (bounds.min - self.origin).to_array();
-        let high = (bounds.max - self.origin).to_array();
-        let [x, y, z] = &self.inverse;
-        let entries: Lanes = from_fn(|k| {
-            let (a, b) = (low[0] * x[k], high[0] * x[k]);
-            let (c, d) = (low[1] * y[k], high[1] * y[k]);
-            let (e, f) = (low[2] * z[k], high[2] * z[k]);
-            let from = more(more(less(a, b), less(c, d)), more(less(e, f), 0.0));
-            let to = less(less(more(a, b), more(c, d)), less(more(e, f), self.ends[k]));
-            if from <= to { from } else { f32::INFINITY }
-        });
-        smallest(&entries)
+        let low = splat(simd, (bounds.min - self.origin).to_array());
+        let high = splat(simd, (bounds.max - self.origin).to_array());
+        let inverse = self.inverse.each_ref().map(
+            #[inline(always)]
+            |lanes| S::as_simd_f32s(lanes).0,
+        );
+        let never = simd.splat_f32s(f32::INFINITY);
+        let mut entry = never;
+        for (k, &end) in S::as_simd_f32s(&self.ends).0.iter().enumerate() {
+            let (mut from, mut to) = (simd.splat_f32s(0.0), end);
+            for axis in 0..3 {
+                let at = [low, high].map(
+                    #[inline(always)]
+                    |side| simd.mul_f32s(side[axis], inverse[axis][k]),
+                );
+                from = simd.max_f32s(from, simd.min_f32s(at[0], at[1]));
+                to = simd.min_f32s(to, simd.max_f32s(at[0], at[1]));
+            }
+            let enters = simd.less_than_or_equal_f32s(from, to);
+            entry = simd.min_f32s(entry, simd.select_f32s(enters, from, never));
+        }
+        simd.reduce_min_f32s(entry)
+    }
+
+    /// Ends the rays where they meet something; returns where the last of them ends.
+    #[inline(always)]
+    fn end<S: Simd>(&mut self, simd: S, nearness: &Lanes) -> f32 {
+        let mut last = simd.splat_f32s(0.0);
+        let one = simd.splat_f32s(1.0);
+        let ends = S::as_mut_simd_f32s(&mut self.ends).0.iter_mut();
+        for (end, &nearness) in ends.zip(S::as_simd_f32s(nearness).0) {
+            *end = simd.div_f32s(one, nearness);
+            last = simd.max_f32s(last, *end);
+        }
+        simd.reduce_max_f32s(last)
     }
 }
 
-/// Tests a quad against all rays of a packet.
+/// Tests a quad, as the eye sees it, against all rays of a packet.
 #[inline(always)]
-fn meet(quad: &Quad, (eye, hair): (DVec3, f64), packet: &mut Packet) {
-    let Some(view) = quad.seen(eye, hair) else { return };
-    let [ex, ey, ez] = view.edges.map(|component| component.map(|c| c as f32));
-    let [nx, ny, nz] = view.plane.as_vec3().to_array();
-    let [x, y, z] = &packet.directions;
-    let slack: [f32; 4] = from_fn(|k| (ex[k].abs() + ey[k].abs() + ez[k].abs()) * EDGE as f32);
-    let inside: Lanes = from_fn(|ray| {
-        let depth = |k: usize| x[ray] * ex[k] + y[ray] * ey[k] + z[ray] * ez[k] + slack[k];
-        less(less(depth(0), depth(1)), less(depth(2), depth(3)))
-    });
-    if largest(&inside) < 0.0 {
-        return;
+fn meet<S: Simd>(simd: S, (view, patch): (&View, u32), packet: &mut Packet) {
+    let sides: [[f32; 4]; 4] = from_fn(
+        #[inline(always)]
+        |k| {
+            let [x, y, z] = view.edges.map(
+                #[inline(always)]
+                |component| component[k] as f32,
+            );
+            [x, y, z, (x.abs() + y.abs() + z.abs()) * EDGE as f32]
+        },
+    );
+    let plane = splat(simd, view.plane.as_vec3().to_array());
+    let (zero, number) = (simd.splat_f32s(0.0), simd.splat_f32s(f32::from_bits(patch)));
+    let [x, y, z] = packet.directions.each_ref().map(
+        #[inline(always)]
+        |lanes| S::as_simd_f32s(lanes).0,
+    );
+    let nearest = S::as_mut_simd_f32s(&mut packet.nearness).0.iter_mut();
+    let patches = S::as_mut_simd_u32s(&mut packet.patch).0.iter_mut();
+    for (k, (best, patch)) in nearest.zip(patches).enumerate() {
+        let direction = [x[k], y[k], z[k]];
+        let mut inside = simd.splat_f32s(f32::INFINITY);
+        for [x, y, z, slack] in sides {
+            let depth = dot(simd, direction, splat(simd, [x, y, z]));
+            inside = simd.min_f32s(inside, simd.add_f32s(depth, simd.splat_f32s(slack)));
+        }
+        let inside = simd.greater_than_or_equal_f32s(inside, zero);
+        let nearness = dot(simd, direction, plane);
+        let before = simd.transmute_f32s_u32s(*patch);
+        let same = simd.and_m32s(
+            simd.greater_than_or_equal_f32s(nearness, *best),
+            simd.and_m32s(simd.less_than_f32s(number, before), simd.greater_than_f32s(*best, zero)),
+        );
+        let nearer = simd.or_m32s(simd.greater_than_f32s(nearness, *best), same);
+        let met = simd.and_m32s(inside, nearer);
+        *best = simd.select_f32s(met, nearness, *best);
+        *patch = simd.transmute_u32s_f32s(simd.select_f32s(met, number, before));
     }
-    for ray in 0..RAYS {
-        let nearness = x[ray] * nx + y[ray] * ny + z[ray] * nz;
-        let best = packet.nearness[ray];
-        let first = nearness == best && quad.patch < packet.patch[ray] && best > 0.0;
-        let met = inside[ray] >= 0.0 && (nearness > best || first);
-        packet.nearness[ray] = if met { nearness } else { best };
-        packet.patch[ray] = if met { quad.patch } else { packet.patch[ray] };
-    }
+}
+
+#[inline(always)]
+fn splat<S: Simd>(simd: S, values: [f32; 3]) -> [S::f32s; 3] {
+    values.map(
+        #[inline(always)]
+        |value| simd.splat_f32s(value),
+    )
+}
+
+#[inline(always)]
+fn dot<S: Simd>(simd: S, a: [S::f32s; 3], b: [S::f32s; 3]) -> S::f32s {
+    let sum = simd.add_f32s(simd.mul_f32s(a[0], b[0]), simd.mul_f32s(a[1], b[1]));
+    simd.add_f32s(sum, simd.mul_f32s(a[2], b[2]))
 }
 
 /// Reciprocal of a direction's component, finite even where it vanishes.
 #[inline(always)]
 fn inverse(component: f32) -> f32 {
     1.0 / if component.abs() < f32::EPSILON { f32::EPSILON } else { component }
-}
-
-/// The lesser of two numbers that are numbers, in one instruction.
-#[inline(always)]
-fn less(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
-}
-
-#[inline(always)]
-fn more(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
-}
-
-#[inline(always)]
-fn smallest(lanes: &Lanes) -> f32 {
-    let half: [f32; 4] = from_fn(|k| less(lanes[k], lanes[k + 4]));
-    less(less(half[0], half[2]), less(half[1], half[3]))
-}
-
-#[inline(always)]
-fn largest(lanes: &Lanes) -> f32 {
-    let half: [f32; 4] = from_fn(|k| more(lanes[k], lanes[k + 4]));
-    more(more(half[0], half[2]), more(half[1], half[3]))
 }

@@ -63,6 +63,20 @@ impl Body {
     pub fn corners(&self) -> &[DVec3] {
         &self.corners
     }
+
+    /// The plane of a polygon, in front of which is what it faces.
+    pub fn front(&self) -> Option<HalfSpace> {
+        self.front
+    }
+
+    /// Opposite corners of the box around it, m.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        let corners = || self.corners.iter().copied();
+        (
+            corners().fold(DVec3::INFINITY, DVec3::min),
+            corners().fold(DVec3::NEG_INFINITY, DVec3::max),
+        )
+    }
 }
 
 impl Shaft {

@@ -83,9 +83,10 @@ pub(crate) struct MethodOptions {
     #[arg(long, value_name = "FACTOR", value_parser = values::number)]
     omega: Option<f64>,
 
-    /// Cells along a hemicube's edge: even, 32 to 1024 (default: 128)
+    /// Most cells along a hemicube's edge: even, 32 to 1024 (default: 128, of drafts 64)
     ///
-    /// More sees smaller things between patches; time grows with its square.
+    /// More sees smaller things between patches; time grows with its square. Where patches outnumber cells, there
+    /// are fewer if the tolerance admits it.
     #[arg(long, value_name = "CELLS")]
     hemicube_resolution: Option<u32>,
 }

@@ -18,6 +18,7 @@ mod elements;
 mod packets;
 mod probe;
 mod raster;
+mod resolution;
 mod targets;
 
 use glam::{DMat3, DVec3, Vec3};
@@ -30,6 +31,7 @@ use crate::visibility::{Occluders, PatchHierarchy};
 pub use delta::DeltaFactors;
 pub use element_map::ElementMap;
 pub use elements::ElementSums;
+pub(crate) use resolution::{enough_cells, is_by_rays};
 pub use targets::Targets;
 
 use cells::{Cells, NOTHING, Run};
@@ -39,15 +41,6 @@ use raster::Raster;
 /// Patches in one plane with the eye are seen edge-on, that is, not at all; heights below this, m,
 /// are rounding.
 const HAIR: f64 = 1e-11;
-
-/// At more patches to a cell, rays find what cells see sooner than projection: at two in bare rooms, at seven among
-/// leaves.
-const CROWDED: usize = 4;
-
-/// True if so many patches outnumber a hemicube's cells, with so many along its edge, by so much that it looks by rays.
-pub(crate) fn is_by_rays(patches: usize, resolution: usize) -> bool {
-    patches > CROWDED * 3 * resolution * resolution
-}
 
 /// Factor on the nearness of backs: of two faces back to back in one place, the front one must win
 /// over rounding.

@@ -4,15 +4,13 @@ use glam::{DMat3, DVec3};
 use smallvec::SmallVec;
 
 use super::clip::Corners;
+use super::resolution::MANY;
 use crate::mesh::Patch;
 use crate::visibility::PatchHierarchy;
 
 /// Patches that are turned into a hemicube's frame at once: enough to fill registers, few enough for the
 /// nearest cache.
 const BLOCK: usize = 32;
-
-/// Fewer patches than this never outnumber a hemicube's cells so much, 16 along an edge or more.
-const MANY: usize = super::CROWDED * 3 * 16 * 16;
 
 /// What hemicubes look at; made once for all of them.
 #[derive(Clone, Debug)]

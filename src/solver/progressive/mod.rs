@@ -22,13 +22,16 @@ use super::transport::Row;
 use super::{ElementLight, Observer, Phase, Stop};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
-use crate::form_factor::hemicube::{DeltaFactors, Targets};
+use crate::form_factor::hemicube::{DeltaFactors, Targets, enough_cells};
 use crate::mesh::{ElementId, Mesh, PatchId};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
 
 use state::last_state;
+
+/// Fewest cells along the edge of the hemicubes of shooters.
+const FEWEST_CELLS: usize = 32;
 
 /// Links kept for later shots; beyond them, rows are made anew.
 const KEPT_LINKS: usize = 8_000_000;
@@ -103,12 +106,14 @@ impl<'a, 'o> Shooting<'a, 'o> {
             members(group).map(part).sum()
         };
         let reflectances = (0..groups.len()).map(reflectance).collect();
+        let most = settings.hemicube_resolution as usize;
+        let resolution = enough_cells(mesh.patches.len(), settings.tolerance, FEWEST_CELLS..=most);
         let mut shooting = Self {
             observer,
             mesh,
             surfaces,
             occluders,
-            delta: DeltaFactors::new(settings.hemicube_resolution as usize),
+            delta: DeltaFactors::new(resolution),
             targets: Targets::new(&mesh.patches),
             rows: vec![None; groups.len()],
             groups,
