@@ -3,6 +3,7 @@
 //! It carries the hard edges, so it is never carried by the hemicube.
 
 mod candidates;
+mod evaluation;
 mod glimpse;
 mod globe;
 mod lamp;

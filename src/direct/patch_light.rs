@@ -5,13 +5,12 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use smallvec::SmallVec;
 
 use super::candidates::{self, Candidate, Candidates};
+use super::evaluation::{Evaluation, POOLED, strength};
 use super::lines::{Crowd, Line, Shining};
-use super::pool::Pool;
 use super::rims::Rims;
-use super::{Lamp, Lamps, Seen, View, punctual};
+use super::{Lamp, Lamps, punctual};
 use crate::colour::Rgb;
 use crate::mesh::{Direct, Mesh, PatchId};
 use crate::scene::area_vector;
@@ -25,23 +24,11 @@ const MANY: usize = 256;
 /// of what they stand for has no kinks, and no element is cut along so short a line.
 const LEAST_EDGE: f64 = 0.25;
 
-/// Lamps that send more than this many tolerated errors are looked at exactly, if that can be done.
-const EXACT: f64 = 4.0;
-
-/// Most shadows that are cut out of a lamp for each tolerated error that it sends.
-const SHADOWS: f64 = 2.0;
-
-/// Lamps that send less than this share of a tolerated error are looked at together.
-const POOLED: f64 = 0.5;
-
 /// Those that can send no more than this share of it anywhere on a patch are, by what their middles send.
 const FAINT: f64 = 0.5 * POOLED;
 
 /// So many occluders before a lamp are cut out of it sooner than they are looked through.
 const LISTED: usize = 4;
-
-/// Share of a tolerated error that looking by rays may make.
-const SHARE: f64 = 0.5;
 
 /// Light is judged as if at least this share of the mean arrived: nobody sees errors in the dark.
 const DARKEST: f64 = 0.05;
@@ -240,6 +227,11 @@ impl PatchLight {
 }
 
 impl Outlook<'_> {
+    /// True if nothing stands before any lamp.
+    pub fn is_clear(&self) -> bool {
+        self.candidates().all(|candidate| candidate.blockers.is_clear())
+    }
+
     /// True if more stands before a lamp than can be listed.
     pub fn is_crowded(&self) -> bool {
         self.candidates().any(|candidate| matches!(candidate.blockers, Blockers::Many(_)))
@@ -253,7 +245,8 @@ impl Outlook<'_> {
     /// The same with errors as are `tolerated` where at least so much arrives, W/m².
     fn within(&self, place: DVec3, tolerated: impl Fn(f64) -> f64) -> Direct {
         let normal = self.light.normals[self.patch.index()];
-        let mut work = Evaluation::new(self.light, (place, normal));
+        let PatchLight { lamps, occluders, .. } = self.light;
+        let mut work = Evaluation::new((lamps, occluders), (place, normal));
         for candidate in self.candidates() {
             if candidate.most >= self.faint || !work.add_faint(candidate) {
                 work.add(candidate);
@@ -278,121 +271,6 @@ impl Tolerated {
     }
 }
 
-/// Light at one place, lamp by lamp.
-struct Evaluation<'a> {
-    light: &'a PatchLight,
-    receiver: (DVec3, DVec3),
-    known: Direct,
-    /// Lamps that something may stand before.
-    open: SmallVec<[(u32, &'a Blockers, View<'a>); 2]>,
-    pool: Pool,
-    evaluations: u64,
-    rays: u64,
-}
-
-impl<'a> Evaluation<'a> {
-    fn new(light: &'a PatchLight, receiver: (DVec3, DVec3)) -> Self {
-        let (known, open, pool) = (Direct::default(), SmallVec::new(), Pool::default());
-        Self { light, receiver, known, open, pool, evaluations: 0, rays: 0 }
-    }
-
-    /// Adds the light of a lamp that looks small and does not matter by itself; false if it looks large.
-    fn add_faint(&mut self, Candidate { lamp: number, blockers, .. }: &Candidate) -> bool {
-        let lamps = &self.light.lamps;
-        let glance = lamps.list[*number as usize].glance(self.receiver);
-        let Some((sent, middle)) = glance.filter(|_| lamps.rows.is_none()) else { return false };
-        if sent.max_element() > 0.0 {
-            self.evaluations += 1;
-            self.push(*number, sent, blockers, middle);
-        }
-        true
-    }
-
-    /// Takes the light of a lamp, if all is seen, or else puts it to those that are looked at together, by rays to
-    /// a place on it.
-    fn push(&mut self, number: u32, sent: Rgb, blockers: &Blockers, at: DVec3) {
-        self.known.unoccluded += sent;
-        if blockers.is_clear() {
-            self.known.irradiance += sent;
-        } else {
-            self.pool.push(number, sent, at);
-        }
-    }
-
-    /// Adds a lamp's light if it can be told at once.
-    fn add(&mut self, Candidate { lamp: number, blockers, .. }: &'a Candidate) {
-        let PatchLight { lamps, occluders, .. } = self.light;
-        let lamp = &lamps.list[*number as usize];
-        if let Lamp::Point(point) = lamp {
-            self.add_point(*number, point, blockers);
-        } else if let Some(view) = lamp.view(self.receiver) {
-            self.evaluations += 1;
-            let seen = match lamps.rows {
-                _ if blockers.is_clear() => Some(view.all()),
-                rows => rows.map(|rows| view.sampled_evenly(occluders, rows)),
-            };
-            match seen {
-                Some(seen) => self.take(&view, seen),
-                None => self.open.push((*number, blockers, view)),
-            }
-        }
-    }
-
-    fn add_point(&mut self, number: u32, light: &crate::scene::Light, blockers: &Blockers) {
-        let (place, normal) = self.receiver;
-        let Some((sent, source)) = punctual::irradiance(light, place, normal) else { return };
-        self.evaluations += 1;
-        self.push(number, sent, blockers, source.end(place, &self.light.occluders));
-    }
-
-    fn take(&mut self, view: &View<'_>, seen: Seen) {
-        self.known = self.known + view.light(seen);
-        self.rays += seen.rays;
-    }
-
-    /// All light, once errors are known that do not matter where so much arrives at least, W/m².
-    fn finish(mut self, tolerated: impl Fn(f64) -> f64) -> Direct {
-        let mut open = std::mem::take(&mut self.open);
-        let error = tolerated(strength(self.known.irradiance));
-        open.retain(|(_, blockers, view)| {
-            let is_worth_it = strength(view.unoccluded()) > POOLED * error;
-            let exact = (is_worth_it && !matches!(blockers, Blockers::Many(_)))
-                .then(|| view.exact(&self.light.occluders, blockers, CROWDED));
-            exact.flatten().map(|seen| self.take(view, seen)).is_none()
-        });
-        let error = tolerated(strength(self.known.irradiance));
-        for (number, blockers, view) in open {
-            if strength(view.unoccluded()) > POOLED * error {
-                let seen = self.crowded(&view, blockers, error);
-                self.take(&view, seen);
-            } else {
-                let middle = view.polygon.iter().sum::<DVec3>() / view.polygon.len() as f64;
-                self.push(number, view.unoccluded(), blockers, middle);
-            }
-        }
-        let PatchLight { lamps, occluders, .. } = self.light;
-        let sees = |lamp: u32, at: DVec3| {
-            let is_own = |surface| lamps.list[lamp as usize].is_part(surface);
-            !occluders.blocks_beyond(self.receiver.0, at, is_own)
-        };
-        let (light, rays) = self.pool.shine(SHARE * error, sees);
-        self.known.irradiance += light;
-        lamps.tally.add(self.evaluations, self.rays + rays);
-        self.known
-    }
-
-    /// What is seen of a lamp that much may stand before.
-    fn crowded(&self, view: &View<'_>, blockers: &Blockers, error: f64) -> Seen {
-        let occluders = &self.light.occluders;
-        let sent = strength(view.unoccluded());
-        // The more a lamp sends, the more may be cut out of it before rays would do as well.
-        let most = (SHADOWS * sent / error.max(f64::MIN_POSITIVE)) as usize;
-        let exact = (sent > EXACT * error).then(|| view.exact(occluders, blockers, most));
-        let sampled = || view.sampled(occluders, SHARE * error / sent * view.weight);
-        exact.flatten().unwrap_or_else(sampled)
-    }
-}
-
 /// The most irradiance by a lamp at the corners and in the middle of a receiver, W/m²; any, if it has no surface.
 fn most_by(lamp: &Lamp, receiver: Facet<'_>) -> f64 {
     if matches!(lamp, Lamp::Point(_)) {
@@ -405,9 +283,4 @@ fn most_by(lamp: &Lamp, receiver: Facet<'_>) -> f64 {
         lamp.view((at.lerp(middle, 1e-3), receiver.plane.normal))
     });
     views.map(|view| strength(view.unoccluded())).fold(0.0, f64::max)
-}
-
-/// Mean of the channels.
-fn strength(light: Rgb) -> f64 {
-    light.element_sum() / 3.0
 }

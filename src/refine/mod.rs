@@ -101,27 +101,28 @@ impl Oracle {
         level < self.max_level && is_wide && width.max(height) >= 2.0 * self.min_element
     }
 
-    /// How to divide an element, by the `light` (W/m² of radiosity) known at its corners and middle, and by
-    /// the largest error found at `probes`; `None` if interpolation will do.
+    /// How to divide an element, by the `light` (W/m² of radiosity) known at its corners and middle, and by whether
+    /// light `is_off` elsewhere on it by more than an error, W/m²; `None` if interpolation will do.
     pub fn judge(
         &self,
         (mesh, element): (&Mesh, ElementId),
         middle: &Middle,
         light: impl Fn(&Vertex) -> Rgb,
-        probes: f64,
+        is_off: impl FnOnce(f64) -> bool,
     ) -> Option<Split> {
         let corners: SmallVec<[Rgb; 4]> =
             mesh[element].corners.iter().map(|&v| light(&mesh[v])).collect();
         let errors = Errors::new(&corners, middle, |v| light(&mesh[v]));
         let allowed = self.allowed(mesh, element, &corners);
-        if errors.largest().max(probes) <= allowed {
-            return None;
+        let round = || Some(mesh.round_split(element));
+        if errors.largest() <= allowed {
+            return if is_off(allowed) { round() } else { None };
         }
-        let round = mesh.round_split(element);
-        let halves = (probes <= allowed && corners.len() == 4)
+        let halves = (corners.len() == 4)
             .then(|| self.halving(mesh.sides(element), &errors, allowed))
-            .flatten();
-        Some(halves.unwrap_or(round))
+            .flatten()
+            .filter(|_| !is_off(allowed));
+        halves.or_else(round)
     }
 
     /// True if the `light` (W/m² of radiosity) at the corners of an element differs by less than the error that it

@@ -1,6 +1,6 @@
 //! Direct light at vertices, and the mesh refined until it can be interpolated.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -8,10 +8,11 @@ use smallvec::SmallVec;
 
 use super::groups::Groups;
 use super::lookout::{ONE_PLACE, neighbours};
+use super::outlooks::Outlooks;
 use super::unfinished::make_do;
 use super::{Observer, Phase};
 use crate::colour::Rgb;
-use crate::direct::{Outlook, PatchLight};
+use crate::direct::PatchLight;
 use crate::mesh::{Direct, ElementId, Mesh, Middle, PatchId, Split, Vertex, VertexId};
 use crate::refine::{self, Discontinuity, Oracle, cut, strength};
 use crate::settings::Settings;
@@ -45,16 +46,17 @@ impl<'a> World<'a> {
 /// borders by what stands before each element.
 ///
 /// Vertices of facets that are in one group and at one place see the same share of it.
-pub(super) fn light(
-    world: World<'_>,
+fn light(
+    outlooks: &Outlooks<'_>,
     mesh: &mut Mesh,
     elements: &[ElementId],
     observer: &mut Observer<'_>,
 ) {
+    let world = outlooks.world;
     let (owned, others) = owners(world, mesh, elements);
     let sets = neighbours((mesh, world.groups), world.near, &others);
     let on_element = |(element, vertices): &(ElementId, SmallVec<[VertexId; 5]>)| {
-        let outlook = outlook(world, mesh, *element);
+        let outlook = outlooks.from(mesh, *element);
         vertices.iter().map(|&v| outlook.at(mesh[v].site)).collect::<SmallVec<[Direct; 1]>>()
     };
     let shine = |set: &SmallVec<_>| light_together(world, mesh, set);
@@ -67,14 +69,6 @@ pub(super) fn light(
     for (vertex, direct) in vertices.zip(lit.iter().flatten()) {
         mesh.vertices[vertex.index()].direct = Some(*direct);
     }
-}
-
-/// What is seen of the lamps from an element.
-fn outlook<'a>(world: World<'a>, mesh: &Mesh, element: ElementId) -> Outlook<'a> {
-    let plane = &world.surfaces.list[mesh.surface_of(element)].plane;
-    let corners: SmallVec<[DVec3; 8]> =
-        mesh.outline(element).iter().map(|&p| plane.lift(p)).collect();
-    world.light.on_part(mesh[element].patch, &corners)
 }
 
 /// Elements and their vertices.
@@ -153,7 +147,7 @@ pub(super) fn light_leaves(world: World<'_>, mesh: &mut Mesh, observer: &mut Obs
     for &leaf in &leaves {
         mesh.middle(leaf);
     }
-    light(world, mesh, &leaves, observer);
+    light(&Outlooks::new(world, mesh), mesh, &leaves, observer);
     if observer.flow.is_break() {
         make_do(world.light, mesh);
     }
@@ -178,7 +172,7 @@ pub(super) fn refine(
     if observer.tell(Phase::Direct, 0.0).is_break() {
         return;
     }
-    light(world, mesh, &[], observer);
+    light(&Outlooks::new(world, mesh), mesh, &[], observer);
     if settings.uniform.is_some() || observer.flow.is_break() {
         return;
     }
@@ -202,10 +196,11 @@ pub(super) fn refine(
         }
         candidates.retain(|&e| may_be_divided(mesh, e));
         let middles: Vec<Middle> = candidates.iter().map(|&e| mesh.middle(e)).collect();
-        light(world, mesh, &candidates, observer);
+        let outlooks = Outlooks::new(world, mesh);
+        light(&outlooks, mesh, &candidates, observer);
         let judged: Vec<(ElementId, &Middle)> = candidates.iter().copied().zip(&middles).collect();
         let judge = |&(element, middle): &(ElementId, &Middle)| {
-            divide((world, mesh), (&oracle, &lines), element, middle)
+            divide((&outlooks, mesh), (&oracle, &lines), element, middle)
         };
         let verdicts: Vec<Option<Split>> = evaluate(world.light, &judged, judge, observer);
         if !mesh.has_room_for(verdicts.iter().flatten().count()) {
@@ -254,44 +249,40 @@ pub(super) fn reflects(mesh: &Mesh, element: ElementId) -> bool {
 
 /// How to divide an element, if at all: along a discontinuity line, or as the oracle says.
 fn divide(
-    (world, mesh): (World<'_>, &Mesh),
+    (outlooks, mesh): (&Outlooks<'_>, &Mesh),
     (oracle, lines): (&Oracle, &[Vec<Discontinuity>]),
     element: ElementId,
     middle: &Middle,
 ) -> Option<Split> {
     let lines = &lines[mesh[element].patch.index()];
-    let cut = cut((mesh, element), lines, oracle, world.surfaces.tolerance);
-    cut.or_else(|| judge((world, mesh), oracle, element, middle))
+    let cut = cut((mesh, element), lines, oracle, outlooks.world.surfaces.tolerance);
+    cut.or_else(|| judge((outlooks, mesh), oracle, element, middle))
 }
 
 fn judge(
-    (world, mesh): (World<'_>, &Mesh),
+    (outlooks, mesh): (&Outlooks<'_>, &Mesh),
     oracle: &Oracle,
     element: ElementId,
     middle: &Middle,
 ) -> Option<Split> {
-    let reflectance = mesh[mesh[element].patch].reflectance;
-    let irradiance = |v: VertexId| mesh[v].direct.unwrap_or_default().irradiance;
-    let light = |vertex: &Vertex| reflectance * vertex.direct.unwrap_or_default().irradiance;
-    let corners: Vec<(DVec2, Rgb)> =
-        mesh[element].corners.iter().map(|&v| (mesh[v].position, irradiance(v))).collect();
-    let surface = &world.surfaces.list[mesh.surface_of(element)];
-    let verdict = oracle.judge((mesh, element), middle, light, 0.0);
-    if matches!(verdict, Some(Split::Quarters)) {
-        return verdict;
-    }
-    let outlook = outlook(world, mesh, element);
-    // In crowds, shadows between the middles of small elements are as small as what makes them: they blur.
-    let is_crowded = world.groups.holds(mesh[element].patch) || outlook.is_crowded();
-    if is_crowded && oracle.is_small(mesh, element) {
-        return verdict;
-    }
-    let probe_error = |(position, expected): (DVec2, Rgb)| {
-        let Direct { irradiance, .. } = outlook.at(surface.plane.lift(position));
-        strength(reflectance * (irradiance - expected))
-    };
-    let error = probes(&corners).into_iter().map(probe_error).fold(0.0, f64::max);
-    oracle.judge((mesh, element), middle, light, error)
+    let patch = mesh[element].patch;
+    let direct = |vertex: &Vertex| vertex.direct.unwrap_or_default().irradiance;
+    let light = |vertex: &Vertex| mesh[patch].reflectance * direct(vertex);
+    oracle.judge((mesh, element), middle, light, |allowed| {
+        let outlook = outlooks.from(mesh, element);
+        // In crowds, shadows between the middles of small elements are as small as what makes them: they blur.
+        let is_crowded = outlooks.world.groups.holds(patch) || outlook.is_crowded();
+        if outlook.is_clear() || (is_crowded && oracle.is_small(mesh, element)) {
+            return false;
+        }
+        let plane = &outlooks.world.surfaces.list[mesh.surface_of(element)].plane;
+        let corners: Vec<(DVec2, Rgb)> =
+            mesh[element].corners.iter().map(|&v| (mesh[v].position, direct(&mesh[v]))).collect();
+        probes(&corners).into_iter().any(|(position, expected)| {
+            let Direct { irradiance, .. } = outlook.at(plane.lift(position));
+            strength(mesh[patch].reflectance * (irradiance - expected)) > allowed
+        })
+    })
 }
 
 /// Places inside a quadrilateral or triangle off its midlines, with interpolated values.

@@ -63,7 +63,7 @@ fn divide(
     let verdict = |(&element, middle): (&ElementId, &Middle)| {
         let reflectance = mesh[mesh[element].patch].reflectance;
         let shown = |v: &Vertex| reflectance * v.indirect.unwrap_or(Rgb::ZERO);
-        oracle.judge((mesh, element), middle, shown, 0.0).map(|split| (element, split))
+        oracle.judge((mesh, element), middle, shown, |_| false).map(|split| (element, split))
     };
     let verdicts: Vec<Option<(ElementId, Split)>> =
         candidates.iter().zip(middles).map(verdict).collect();

@@ -15,6 +15,7 @@ mod indirect_pass;
 mod interpolate;
 mod lookout;
 mod observer;
+mod outlooks;
 mod parts;
 mod probe;
 mod progressive;

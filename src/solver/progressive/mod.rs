@@ -10,15 +10,13 @@ mod ambient;
 mod rows;
 mod state;
 
-use std::collections::BTreeMap;
-
 use serde::{Deserialize, Serialize};
 
 use super::direct_pass::World;
 use super::energy::Energy;
 use super::groups::Groups;
 use super::relaxation::{Course, Relaxation, Residuals, Step};
-use super::transport::Row;
+use super::transport::{Link, Row};
 use super::{ElementLight, Observer, Phase, Stop};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
@@ -69,6 +67,8 @@ pub(super) struct Shooting<'a, 'o> {
     unshot: Vec<Rgb>,
     /// By element: the irradiance received at that level and not yet shot, W/m².
     pending: Vec<Rgb>,
+    /// By element: the radiosity that it releases, while its group does, W/m².
+    released: Vec<Rgb>,
     /// What groups release, if that is not what they hold.
     remembered: Option<Held>,
     /// By element: irradiance by reflected light received at that level, W/m².
@@ -124,6 +124,7 @@ impl<'a, 'o> Shooting<'a, 'o> {
             unshot: (0..groups.len()).map(unshot).collect(),
             areas,
             reflectances,
+            released: vec![Rgb::ZERO; mesh.elements.len()],
             remembered: None,
             received: vec![Rgb::ZERO; mesh.elements.len()],
             energy: Energy::default(),
@@ -208,33 +209,29 @@ impl<'a, 'o> Shooting<'a, 'o> {
         released
     }
 
-    /// The radiosities that a patch's elements release, all levels settled, W/m²; they hold that much
-    /// less afterwards.
-    fn release_elements(&mut self, patch: PatchId, omega: f64) -> BTreeMap<ElementId, Rgb> {
-        let reflectance = self.mesh[patch].reflectance;
-        let tree = &self.trees[patch.index()];
-        let mut light: BTreeMap<ElementId, Rgb> = BTreeMap::new();
-        for &element in tree {
-            let index = element.index();
-            let remembered = self.remembered.as_ref().map(|remembered| remembered.pending[index]);
-            let released = omega * remembered.unwrap_or(self.pending[index]);
-            self.pending[index] -= released;
-            *light.entry(element).or_default() += released;
-            for &child in &self.mesh[element].children {
-                light.insert(child, light[&element]);
+    /// Finds the radiosities that a patch's elements release, all levels settled, W/m²; they hold that much less
+    /// afterwards.
+    fn release_elements(&mut self, patch: PatchId, omega: f64) {
+        let Self { mesh, trees, pending, released, remembered, .. } = self;
+        let (reflectance, tree) = (mesh[patch].reflectance, &trees[patch.index()]);
+        released[mesh[patch].root.index()] = Rgb::ZERO;
+        for element in tree.iter().map(|element| element.index()) {
+            let held = remembered.as_ref().map_or(pending[element], |held| held.pending[element]);
+            pending[element] -= omega * held;
+            released[element] += omega * held;
+            for child in &mesh.elements[element].children {
+                released[child.index()] = released[element];
             }
         }
         for &element in tree.iter().rev() {
-            let parts = &self.mesh[element].children;
+            let parts = &mesh[element].children;
             if !parts.is_empty() {
-                let area = self.mesh[element].area;
-                let mean =
-                    parts.iter().map(|part| light[part] * (self.mesh[*part].area / area)).sum();
-                light.insert(element, mean);
+                let share = |part: &ElementId| mesh[*part].area / mesh[element].area;
+                let means = parts.iter().map(|part| released[part.index()] * share(part));
+                released[element.index()] = means.sum();
             }
         }
-        light.values_mut().for_each(|light| *light *= reflectance);
-        light
+        tree.iter().for_each(|element| released[element.index()] *= reflectance);
     }
 
     fn unshot_power(&self) -> Rgb {
@@ -274,15 +271,20 @@ impl Residuals for Shooting<'_, '_> {
 
     fn relax(&mut self, shooter: usize, omega: f64) -> Rgb {
         let released = self.release(shooter, omega);
-        let radiosity = match self.groups.members(shooter) {
-            &[patch] => Released::ByElement(self.release_elements(patch, omega)),
-            _ => Released::Even(released),
-        };
+        match self.groups.members(shooter) {
+            &[patch] => self.release_elements(patch, omega),
+            // Groups of facets are taken as one.
+            facets => {
+                let roots = facets.iter().map(|&facet| self.mesh[facet].root.index());
+                roots.for_each(|root| self.released[root] = released);
+            }
+        }
         let power = released * self.areas[shooter];
         let row = self.rows[shooter].take().unwrap_or_default();
-        let scale = conserve(power * (1.0 - row.escaped - row.on_backs), &row, &radiosity);
+        let arriving = power * (1.0 - row.escaped - row.on_backs);
+        let scale = conserve(arriving, &row, &self.released);
         for link in &row.links {
-            let power = scale * radiosity.of(link.source) * link.exchange;
+            let power = scale * self.released[link.source.index()] * link.exchange;
             let group = self.groups.of(self.mesh[link.receiver].patch);
             let shared = self.groups.members(group).len() > 1;
             let area = if shared { self.areas[group] } else { self.mesh[link.receiver].area };
@@ -297,23 +299,6 @@ impl Residuals for Shooting<'_, '_> {
         self.rows[shooter] = Some(row);
         self.shots += 1;
         released
-    }
-}
-
-/// The radiosity that a shooter releases, W/m².
-enum Released {
-    /// By element of a patch.
-    ByElement(BTreeMap<ElementId, Rgb>),
-    /// The same everywhere: groups of facets are taken as one.
-    Even(Rgb),
-}
-
-impl Released {
-    fn of(&self, element: ElementId) -> Rgb {
-        match self {
-            Self::ByElement(elements) => elements[&element],
-            Self::Even(radiosity) => *radiosity,
-        }
     }
 }
 
@@ -347,8 +332,9 @@ fn leaves_only(mesh: &Mesh, values: &[Rgb]) -> Vec<Rgb> {
 ///
 /// Elements of a shooter near others see more or less of them than the whole does; no light may be
 /// lost by that, or come from nowhere.
-fn conserve(power: Rgb, row: &Row, radiosity: &Released) -> Rgb {
-    let carried: Rgb = row.links.iter().map(|link| radiosity.of(link.source) * link.exchange).sum();
+fn conserve(power: Rgb, row: &Row, released: &[Rgb]) -> Rgb {
+    let carry = |link: &Link| released[link.source.index()] * link.exchange;
+    let carried: Rgb = row.links.iter().map(carry).sum();
     let scale = Rgb::select(carried.cmpne(Rgb::ZERO), power / carried, Rgb::ONE);
     scale.clamp(Rgb::splat(0.8), Rgb::splat(1.25))
 }

@@ -1,0 +1,152 @@
+//! Light at one place: exact where that is worth it, else by rays, of what matters little of all lamps together.
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
+use super::candidates::Candidate;
+use super::pool::Pool;
+use super::{Lamp, Lamps, Seen, View, punctual};
+use crate::colour::Rgb;
+use crate::mesh::Direct;
+use crate::scene::Light;
+use crate::visibility::{Blockers, CROWDED, Occluders};
+
+/// Lamps that send more than this many tolerated errors are looked at exactly, if that can be done.
+const EXACT: f64 = 4.0;
+
+/// Most shadows that are cut out of a lamp for each tolerated error that it sends.
+const SHADOWS: f64 = 2.0;
+
+/// Lamps that send less than this share of a tolerated error are looked at together.
+pub(super) const POOLED: f64 = 0.5;
+
+/// Share of a tolerated error that looking by rays may make.
+const SHARE: f64 = 0.5;
+
+/// Light at one place, lamp by lamp.
+pub(super) struct Evaluation<'a> {
+    lamps: &'a Lamps,
+    occluders: &'a Occluders,
+    receiver: (DVec3, DVec3),
+    known: Direct,
+    /// Lamps that something may stand before.
+    open: SmallVec<[(u32, &'a Blockers, View<'a>); 2]>,
+    pool: Pool,
+    evaluations: u64,
+    rays: u64,
+}
+
+impl<'a> Evaluation<'a> {
+    /// Of no lamp yet, at a place with a unit normal.
+    pub(super) fn new(
+        (lamps, occluders): (&'a Lamps, &'a Occluders),
+        receiver: (DVec3, DVec3),
+    ) -> Self {
+        let (known, open, pool) = (Direct::default(), SmallVec::new(), Pool::default());
+        Self { lamps, occluders, receiver, known, open, pool, evaluations: 0, rays: 0 }
+    }
+
+    /// Adds the light of a lamp that looks small and does not matter by itself; false if it looks large.
+    pub(super) fn add_faint(
+        &mut self,
+        Candidate { lamp: number, blockers, .. }: &Candidate,
+    ) -> bool {
+        let lamps = self.lamps;
+        let glance = lamps.list[*number as usize].glance(self.receiver);
+        let Some((sent, middle)) = glance.filter(|_| lamps.rows.is_none()) else { return false };
+        if sent.max_element() > 0.0 {
+            self.evaluations += 1;
+            self.push(*number, sent, blockers, middle);
+        }
+        true
+    }
+
+    /// Takes the light of a lamp, if all is seen, or else puts it to those that are looked at together, by rays to
+    /// a place on it.
+    fn push(&mut self, number: u32, sent: Rgb, blockers: &Blockers, at: DVec3) {
+        self.known.unoccluded += sent;
+        if blockers.is_clear() {
+            self.known.irradiance += sent;
+        } else {
+            self.pool.push(number, sent, at);
+        }
+    }
+
+    /// Adds a lamp's light if it can be told at once.
+    pub(super) fn add(&mut self, Candidate { lamp: number, blockers, .. }: &'a Candidate) {
+        let (lamps, occluders) = (self.lamps, self.occluders);
+        let lamp = &lamps.list[*number as usize];
+        if let Lamp::Point(point) = lamp {
+            self.add_point(*number, point, blockers);
+        } else if let Some(view) = lamp.view(self.receiver) {
+            self.evaluations += 1;
+            let seen = match lamps.rows {
+                _ if blockers.is_clear() => Some(view.all()),
+                rows => rows.map(|rows| view.sampled_evenly(occluders, rows)),
+            };
+            match seen {
+                Some(seen) => self.take(&view, seen),
+                None => self.open.push((*number, blockers, view)),
+            }
+        }
+    }
+
+    fn add_point(&mut self, number: u32, light: &Light, blockers: &Blockers) {
+        let (place, normal) = self.receiver;
+        let Some((sent, source)) = punctual::irradiance(light, place, normal) else { return };
+        self.evaluations += 1;
+        self.push(number, sent, blockers, source.end(place, self.occluders));
+    }
+
+    fn take(&mut self, view: &View<'_>, seen: Seen) {
+        self.known = self.known + view.light(seen);
+        self.rays += seen.rays;
+    }
+
+    /// All light, once errors are known that do not matter where so much arrives at least, W/m².
+    pub(super) fn finish(mut self, tolerated: impl Fn(f64) -> f64) -> Direct {
+        let mut open = std::mem::take(&mut self.open);
+        let error = tolerated(strength(self.known.irradiance));
+        open.retain(|(_, blockers, view)| {
+            let is_worth_it = strength(view.unoccluded()) > POOLED * error;
+            let exact = (is_worth_it && !matches!(blockers, Blockers::Many(_)))
+                .then(|| view.exact(self.occluders, blockers, CROWDED));
+            exact.flatten().map(|seen| self.take(view, seen)).is_none()
+        });
+        let error = tolerated(strength(self.known.irradiance));
+        for (number, blockers, view) in open {
+            if strength(view.unoccluded()) > POOLED * error {
+                let seen = self.crowded(&view, blockers, error);
+                self.take(&view, seen);
+            } else {
+                let middle = view.polygon.iter().sum::<DVec3>() / view.polygon.len() as f64;
+                self.push(number, view.unoccluded(), blockers, middle);
+            }
+        }
+        let (lamps, occluders) = (self.lamps, self.occluders);
+        let sees = |lamp: u32, at: DVec3| {
+            let is_own = |surface| lamps.list[lamp as usize].is_part(surface);
+            !occluders.blocks_beyond(self.receiver.0, at, is_own)
+        };
+        let (light, rays) = self.pool.shine(SHARE * error, sees);
+        self.known.irradiance += light;
+        lamps.tally.add(self.evaluations, self.rays + rays);
+        self.known
+    }
+
+    /// What is seen of a lamp that much may stand before.
+    fn crowded(&self, view: &View<'_>, blockers: &Blockers, error: f64) -> Seen {
+        let occluders = self.occluders;
+        let sent = strength(view.unoccluded());
+        // The more a lamp sends, the more may be cut out of it before rays would do as well.
+        let most = (SHADOWS * sent / error.max(f64::MIN_POSITIVE)) as usize;
+        let exact = (sent > EXACT * error).then(|| view.exact(occluders, blockers, most));
+        let sampled = || view.sampled(occluders, SHARE * error / sent * view.weight);
+        exact.flatten().unwrap_or_else(sampled)
+    }
+}
+
+/// Mean of the channels.
+pub(super) fn strength(light: Rgb) -> f64 {
+    light.element_sum() / 3.0
+}
