@@ -16,7 +16,6 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::lamp::AreaLamp;
-use super::rims::Rims;
 use crate::visibility::{Facet, HalfSpace, Occluders};
 
 /// An edge as high over the receiver as this share of the lamp's corner throws no shadow worth a line:
@@ -25,9 +24,6 @@ const HIGHEST: f64 = 0.999;
 
 /// Lamps of more corners are round: of what an edge hides of them, only the first and the last corner make lines.
 const ROUND: usize = 6;
-
-/// Of a crowd of occluders, which of their edges count: those on rims, of at least this length, m.
-pub(super) type Crowd<'a> = Option<(&'a Rims, f64)>;
 
 /// A discontinuity line, perhaps.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +53,7 @@ impl Shining<'_> {
     /// The lines that occluders make with the lamp.
     pub(super) fn lines(
         &self,
-        occluders: (&Occluders, Crowd<'_>),
+        occluders: &Occluders,
         numbers: impl Iterator<Item = u32>,
     ) -> Vec<Line> {
         let mut lines = Vec::new();
@@ -66,42 +62,28 @@ impl Shining<'_> {
     }
 
     /// The lines that one occluder makes.
-    fn lines_by(
-        &self,
-        (occluders, crowd): (&Occluders, Crowd<'_>),
-        occluder: u32,
-        lines: &mut Vec<Line>,
-    ) {
-        let whole = occluders.facet(occluder).corners;
+    fn lines_by(&self, occluders: &Occluders, occluder: u32, lines: &mut Vec<Line>) {
         let receiver = self.receiver.plane;
-        let between = self.lamp.front.clip(&receiver.clip(whole));
-        let length = |k: usize| between[k].distance(between[(k + 1) % between.len()]);
-        let is_long = |k: usize| crowd.is_none_or(|(_, least)| length(k) >= least);
-        // What is cut has edges of its own.
-        let rims = crowd.filter(|_| between.as_slice() == whole).map(|(rims, _)| rims);
-        for (k, &from) in between.iter().enumerate().filter(|(k, _)| is_long(*k)) {
-            let edge = [from, between[(k + 1) % between.len()]];
+        let between = self.lamp.front.clip(&receiver.clip(occluders.facet(occluder).corners));
+        let n = between.len();
+        for (k, &from) in between.iter().enumerate() {
+            let edge = [from, between[(k + 1) % n]];
             for eye in self.eyes(edge) {
-                if rims.is_none_or(|rims| rims.is_rim(occluder, k, eye)) {
-                    self.add(below(eye, receiver, edge), eye, lines);
-                }
+                self.add(below(eye, receiver, edge), eye, lines);
             }
         }
         if self.above.len() > ROUND {
             return;
         }
-        let n = between.len();
-        for (corner, &pivot) in between.iter().enumerate() {
+        for &pivot in &between {
             // On the receiver itself, a corner is the beginning of lines, not a line.
-            let stands = receiver.depth(pivot) > f64::EPSILON * pivot.length();
-            if !stands || !(is_long(corner) || is_long((corner + n - 1) % n)) {
+            if receiver.depth(pivot) <= f64::EPSILON * pivot.length() {
                 continue;
             }
             for (k, &from) in self.above.iter().enumerate() {
                 let edge = [from, self.above[(k + 1) % self.above.len()]];
                 let is_below = |eye: &DVec3| receiver.depth(pivot) < HIGHEST * receiver.depth(*eye);
-                let counts = rims.is_none_or(|rims| rims.is_peak(occluder, corner, edge));
-                if counts && edge.iter().all(is_below) {
+                if edge.iter().all(is_below) {
                     let ends = edge.map(|eye| project(eye, pivot, receiver));
                     self.keep(ends, self.penumbra(edge[0], pivot), lines);
                 }

@@ -11,7 +11,6 @@ mod lines;
 mod patch_light;
 mod pool;
 mod punctual;
-mod rims;
 mod rough;
 mod sampling;
 mod sky;

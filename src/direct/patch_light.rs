@@ -8,23 +8,14 @@ use rayon::prelude::*;
 
 use super::candidates::{self, Candidate, Candidates};
 use super::evaluation::{Evaluation, POOLED, strength};
-use super::lines::{Crowd, Line, Shining};
-use super::rims::Rims;
+use super::lines::{Line, Shining};
 use super::{Lamp, Lamps, punctual};
 use crate::colour::Rgb;
 use crate::mesh::{Direct, Mesh, PatchId};
-use crate::scene::area_vector;
 use crate::visibility::{Blockers, Body, CROWDED, Facet, Occluders};
 
-/// Of more occluders than this, as of curved things, only the edges on their rims make lines, and only long
-/// ones. Of fewer, those that bound nothing cost little, and are found by what they carry.
-const MANY: usize = 256;
-
-/// Where occluders are many, edges shorter than this share of the patch's size are those of facets: the shadow
-/// of what they stand for has no kinks, and no element is cut along so short a line.
-const LEAST_EDGE: f64 = 0.25;
-
-/// Those that can send no more than this share of it anywhere on a patch are, by what their middles send.
+/// Lamps that can send no more than this share of a tolerated error anywhere on a patch are looked at together there, by
+/// what their middles send.
 const FAINT: f64 = 0.5 * POOLED;
 
 /// So many occluders before a lamp are cut out of it sooner than they are looked through.
@@ -41,7 +32,6 @@ pub struct PatchLight {
     candidates: Candidates,
     /// By patch: its unit normal.
     normals: Vec<DVec3>,
-    rims: Rims,
     tolerated: Tolerated,
 }
 
@@ -54,7 +44,7 @@ pub struct Outlook<'a> {
     around: &'a [Candidate],
     /// Those of a part that are more than faint, in place of the patch's.
     own: Option<Vec<Candidate>>,
-    /// Lamps that can send no more than this are faint: looked at together, whatever is before them, W/m².
+    /// Lamps that can send no more than this are looked at together, whatever is before them, W/m².
     faint: f64,
 }
 
@@ -82,9 +72,8 @@ impl PatchLight {
         observe: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Self {
         let candidates = Candidates::new(&lamps, &occluders, mesh, observe);
-        let rims = Rims::new(&occluders);
         let normals = mesh.patches.iter().map(|patch| patch.normal).collect();
-        Self { lamps, occluders, candidates, normals, rims, tolerated: Tolerated::default() }
+        Self { lamps, occluders, candidates, normals, tolerated: Tolerated::default() }
     }
 
     /// The same with errors up to half of those that are tolerated on each patch: given as shares of the geometric
@@ -175,11 +164,11 @@ impl PatchLight {
     /// Segments in the plane of a patch on which its irradiance by polygons may have a kink or a bend, as far as
     /// interpolation may lose more than `least` by them, W/m²; they may reach beyond the patch.
     ///
-    /// The sky makes none: its pieces have no borders that could be seen. Nor do bodies, which are round.
+    /// The sky makes none: its pieces have no borders that could be seen. Nor do bodies, which are round. Nor are there
+    /// any of lamps that more stands before than is cut out of them: what crowds throw has no borders to speak of.
     pub fn lines(&self, mesh: &Mesh, patch: PatchId, least: f64) -> Vec<Line> {
         let corners = &mesh[patch].corners;
         let receiver = Facet::new(corners, self.normals[patch.index()]);
-        let shortest = LEAST_EDGE * area_vector(corners).length().sqrt();
         let mut lines = Vec::new();
         let candidates = self.candidates.of(patch).iter();
         for Candidate { lamp: number, blockers, .. } in candidates.filter(|c| c.most > least) {
@@ -194,10 +183,12 @@ impl PatchLight {
             }
             let body = Body::polygon(Facet { corners: &above, plane: lamp.front });
             let bodies = (&body, &Body::polygon(receiver));
-            let between = self.occluders.numbers_in(blockers, bodies, usize::MAX);
-            let crowd: Crowd<'_> = (between.len() > MANY).then_some((&self.rims, shortest));
+            let between = self.occluders.numbers_in(blockers, bodies, CROWDED + 1);
+            if between.len() > CROWDED {
+                continue;
+            }
             let shining = Shining { number: *number, lamp, above: &above, receiver, most, least };
-            lines.extend(shining.lines((&self.occluders, crowd), between.into_iter()));
+            lines.extend(shining.lines(&self.occluders, between.into_iter()));
         }
         lines
     }

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 /// At more patches to a cell, rays find what cells see sooner than projection: at two in bare rooms, at seven among
 /// leaves.
-const CROWDED: usize = 4;
+const CROWDED: usize = 2;
 
 /// Numbers of cells along an edge to choose from.
 const CELLS: [usize; 4] = [16, 24, 32, 64];
