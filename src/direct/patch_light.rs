@@ -36,7 +36,7 @@ pub struct PatchLight {
 }
 
 /// The lamps that can shine on a patch, or a part of one, and what stands in between.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Outlook<'a> {
     light: &'a PatchLight,
     patch: PatchId,
@@ -99,20 +99,6 @@ impl PatchLight {
     pub fn on(&self, patch: PatchId) -> Outlook<'_> {
         let faint = FAINT * self.tolerated.error(patch, 0.0);
         Outlook { light: self, patch, around: self.candidates.of(patch), own: None, faint }
-    }
-
-    /// The light that places on a convex part of a patch may get: looked through once more where much stands in its
-    /// way, so that the more places are evaluated the better it pays.
-    pub fn on_part(&self, patch: PatchId, corners: &[DVec3]) -> Outlook<'_> {
-        let whole = self.on(patch);
-        let around = || whole.around.iter().filter(|candidate| candidate.most >= whole.faint);
-        if around().all(|candidate| candidate.blockers.are_few(LISTED)) {
-            return whole;
-        }
-        let receiver = Facet::new(corners, self.normals[patch.index()]);
-        let scene = (&self.lamps, &self.occluders);
-        let own = candidates::of_polygon(scene, around(), receiver, whole.faint);
-        Outlook { own: Some(own), ..whole }
     }
 
     /// What arrives at a place on a patch.
@@ -217,7 +203,27 @@ impl PatchLight {
     }
 }
 
-impl Outlook<'_> {
+impl<'a> Outlook<'a> {
+    /// The light that places on a convex part of it may get: looked through once more where much stands in its way, so
+    /// that the more places are evaluated the better it pays.
+    pub fn on_part(&self, corners: &[DVec3]) -> Self {
+        let light = self.light;
+        let is_strong = |candidate: &&Candidate| candidate.most >= self.faint;
+        if self.candidates().filter(is_strong).all(|strong| strong.blockers.are_few(LISTED)) {
+            return self.clone();
+        }
+        let receiver = Facet::new(corners, light.normals[self.patch.index()]);
+        let scene = (&light.lamps, &light.occluders);
+        let own = match &self.own {
+            Some(own) => candidates::of_polygon(scene, own.iter(), receiver, self.faint),
+            None => {
+                let strong = self.around.iter().filter(is_strong);
+                candidates::of_polygon(scene, strong, receiver, self.faint)
+            }
+        };
+        Self { own: Some(own), ..*self }
+    }
+
     /// True if nothing stands before any lamp.
     pub fn is_clear(&self) -> bool {
         self.candidates().all(|candidate| candidate.blockers.is_clear())

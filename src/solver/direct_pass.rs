@@ -189,6 +189,7 @@ pub(super) fn refine(
     } else {
         vec![Vec::new(); mesh.patches.len()]
     };
+    let (mut outlooks, mut before) = (Outlooks::new(world, mesh), Vec::new());
     for level in 0..settings.max_level {
         let share = f64::from(level) / f64::from(settings.max_level);
         if observer.tell(Phase::Direct, share).is_break() {
@@ -196,7 +197,6 @@ pub(super) fn refine(
         }
         candidates.retain(|&e| may_be_divided(mesh, e));
         let middles: Vec<Middle> = candidates.iter().map(|&e| mesh.middle(e)).collect();
-        let outlooks = Outlooks::new(world, mesh);
         light(&outlooks, mesh, &candidates, observer);
         let judged: Vec<(ElementId, &Middle)> = candidates.iter().copied().zip(&middles).collect();
         let judge = |&(element, middle): &(ElementId, &Middle)| {
@@ -206,15 +206,18 @@ pub(super) fn refine(
         if !mesh.has_room_for(verdicts.iter().flatten().count()) {
             return;
         }
-        let mut parts = Vec::new();
+        let mut divided = Vec::new();
         for ((&element, middle), verdict) in candidates.iter().zip(&middles).zip(verdicts) {
             if let Some(split) = verdict {
                 let reason = oracle.reason((mesh, element), split, middle);
                 mesh.split(element, split, reason);
-                parts.extend_from_slice(&mesh[element].children);
+                divided.push(element);
             }
         }
-        candidates = parts;
+        outlooks.extend(mesh, &divided);
+        outlooks.forget(&before);
+        let parts = divided.iter().flat_map(|&element| mesh[element].children.iter().copied());
+        before = std::mem::replace(&mut candidates, parts.collect());
     }
 }
 

@@ -9,17 +9,32 @@ use super::direct_pass::World;
 use crate::direct::Outlook;
 use crate::mesh::{ElementId, Mesh};
 
-/// The outlooks of a mesh's elements.
+/// The outlooks of a mesh's elements, each a part of that of the element around it.
 pub(super) struct Outlooks<'a> {
     pub(super) world: World<'a>,
     /// By element.
     of: Vec<OnceLock<Outlook<'a>>>,
+    /// By element: that of which it is a part, if that is known.
+    around: Vec<Option<ElementId>>,
 }
 
 impl<'a> Outlooks<'a> {
-    /// None of the elements that the mesh has now has been looked from.
+    /// Of the elements that the mesh has now, none of which has been looked from.
     pub(super) fn new(world: World<'a>, mesh: &Mesh) -> Self {
-        Self { world, of: (0..mesh.elements.len()).map(|_| OnceLock::new()).collect() }
+        let mut outlooks = Self { world, of: Vec::new(), around: Vec::new() };
+        outlooks.extend(mesh, &[]);
+        outlooks
+    }
+
+    /// Takes in the elements that the mesh has got since, parts of some that were divided.
+    pub(super) fn extend(&mut self, mesh: &Mesh, divided: &[ElementId]) {
+        self.of.resize_with(mesh.elements.len(), OnceLock::new);
+        self.around.resize(mesh.elements.len(), None);
+        for &element in divided {
+            for part in &mesh[element].children {
+                self.around[part.index()] = Some(element);
+            }
+        }
     }
 
     /// What is seen from an element of the mesh.
@@ -28,7 +43,15 @@ impl<'a> Outlooks<'a> {
             let plane = &self.world.surfaces.list[mesh.surface_of(element)].plane;
             let outline = mesh.outline(element);
             let corners: SmallVec<[DVec3; 8]> = outline.iter().map(|&p| plane.lift(p)).collect();
-            self.world.light.on_part(mesh[element].patch, &corners)
+            match self.around[element.index()] {
+                Some(around) => self.from(mesh, around).on_part(&corners),
+                None => self.world.light.on(mesh[element].patch).on_part(&corners),
+            }
         })
+    }
+
+    /// Drops the outlooks of elements; they are found anew if they are asked for.
+    pub(super) fn forget(&mut self, elements: &[ElementId]) {
+        elements.iter().for_each(|element| self.of[element.index()] = OnceLock::new());
     }
 }
