@@ -3,10 +3,9 @@
 use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
-use obvhs::ray::Ray;
 
 use crate::reconstruct::TriMesh;
-use crate::visibility::hierarchy::hierarchy;
+use crate::visibility::hierarchy::{hierarchy, ray};
 
 /// Growth of the boxes around triangles, as a share of the mesh's size: far above the rounding of
 /// f32, far below a pixel.
@@ -91,7 +90,7 @@ impl Caster {
         let skipped = (-eye.dot(direction) - 1.0).max(0.0);
         let origin = eye + skipped * direction;
         let mut nearest: Option<Hit> = None;
-        let ray = Ray::new_inf(origin.as_vec3a(), direction.as_vec3a());
+        let ray = ray(origin, direction, f32::INFINITY);
         let mut ignored = obvhs::ray::RayHit::none();
         self.tree.ray_traverse(ray, &mut ignored, |_, slot| {
             let hit = self.triangles[slot].meet(origin, direction, sides);

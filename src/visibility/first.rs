@@ -1,8 +1,9 @@
 //! What a ray meets first.
 
 use glam::DVec3;
-use obvhs::ray::{Ray, RayHit};
+use obvhs::ray::RayHit;
 
+use super::hierarchy::ray;
 use super::{Occluder, Occluders};
 
 /// Where a ray meets an occluder.
@@ -25,7 +26,7 @@ impl Occluders {
         if self.polygons.is_empty() {
             return None;
         }
-        let ray = Ray::new_inf((place - self.centre).as_vec3a(), direction.as_vec3a());
+        let ray = ray(place - self.centre, direction, f32::INFINITY);
         let mut nearest: Option<(f64, usize)> = None;
         let mut ignored = RayHit::none();
         self.bvh.ray_traverse(ray, &mut ignored, |_, slot| {

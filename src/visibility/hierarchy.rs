@@ -15,10 +15,11 @@
 //! Boxes padded by 0.1 mm differ in their last bits, which breaks the ties by luck: then all four
 //! let 3 to 4 million rays through.
 
-use glam::{UVec3, Vec3A};
+use glam::{DVec3, UVec3, Vec3A};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::node::Bvh2Node;
+use obvhs::ray::Ray;
 
 /// Places along each axis at which a node may be split, plus one.
 const BINS: usize = 16;
@@ -93,6 +94,15 @@ pub fn hierarchy(boxes: &[Aabb]) -> Bvh2 {
     }
     tree.primitive_indices = items.iter().map(|item| item.index).collect();
     tree
+}
+
+/// A ray through a hierarchy, along a unit vector for so far, in the hierarchy's units.
+///
+/// The fourth lane of a node's corners holds counts, which as floating point numbers are subnormal; less an origin's
+/// lane of zero they would stay so, and each product with them would take a hundred cycles.
+pub(crate) fn ray(origin: DVec3, direction: DVec3, length: f32) -> Ray {
+    let origin = Vec3A::from_vec4(origin.as_vec3().extend(1.0));
+    Ray::new(origin, direction.as_vec3a(), 0.0, length)
 }
 
 /// Levels below the root of a balanced tree of `count` leaves.

@@ -14,7 +14,6 @@ mod visible;
 use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
-use obvhs::ray::Ray;
 use smallvec::SmallVec;
 
 use crate::surface::Surfaces;
@@ -24,7 +23,7 @@ pub use between::Between;
 pub use blockers::Blockers;
 pub use clip::{Facet, HalfSpace, Polygon};
 pub use first::Met;
-use hierarchy::hierarchy;
+use hierarchy::{hierarchy, ray};
 pub use patches::PatchHierarchy;
 pub use shaft::{Body, Shaft};
 pub use visible::{CROWDED, Pieces};
@@ -120,8 +119,8 @@ impl Occluders {
         }
         // With a unit direction: the hierarchy takes components below 1e-7 for zero, whatever the
         // scene's size.
-        let along = (b - a).normalize_or_zero().as_vec3a();
-        let ray = Ray::new((a - self.centre).as_vec3a(), along, 0.0, a.distance(b) as f32);
+        let along = (b - a).normalize_or_zero();
+        let ray = ray(a - self.centre, along, a.distance(b) as f32);
         !self.bvh.ray_traverse_miss(ray, |_, slot| {
             let occluder = &self.polygons[slot];
             let blocks = occluder.crosses(a, b, self.tolerance) && !ignored(occluder.surface);

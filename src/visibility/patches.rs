@@ -7,9 +7,9 @@
 use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
-use obvhs::ray::{Ray, RayHit};
+use obvhs::ray::RayHit;
 
-use super::hierarchy::hierarchy;
+use super::hierarchy::{hierarchy, ray};
 use crate::mesh::{Patch, PatchId};
 
 /// How far outside an edge's plane through the eye a ray still hits, radians or somewhat more:
@@ -87,7 +87,7 @@ impl PatchHierarchy {
     /// the list.
     pub fn first(&self, eye: DVec3, direction: DVec3) -> Option<(PatchId, f64)> {
         let (mut nearness, mut patch) = (0.0, u32::MAX);
-        let ray = Ray::new_inf((eye - self.centre).as_vec3a(), direction.as_vec3a());
+        let ray = ray(eye - self.centre, direction, f32::INFINITY);
         self.bvh.ray_traverse(ray, &mut RayHit::none(), |_, slot| {
             let quad = &self.quads[slot];
             let met = quad.seen(eye, self.hair).map_or(0.0, |view| view.meet(direction));
