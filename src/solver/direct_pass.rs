@@ -273,9 +273,11 @@ fn judge(
     let light = |vertex: &Vertex| mesh[patch].reflectance * direct(vertex);
     oracle.judge((mesh, element), middle, light, |allowed| {
         let outlook = outlooks.from(mesh, element);
-        // In crowds, shadows between the middles of small elements are as small as what makes them: they blur.
-        let is_crowded = outlooks.world.groups.holds(patch) || outlook.is_crowded();
-        if outlook.is_clear() || (is_crowded && oracle.is_small(mesh, element)) {
+        // Between the middles of small elements is nothing to be found where nothing stands before lamps; in crowds,
+        // shadows there are as small as what makes them: they blur.
+        let is_plain =
+            outlooks.world.groups.holds(patch) || outlook.is_clear() || outlook.is_crowded();
+        if is_plain && oracle.is_small(mesh, element) {
             return false;
         }
         let plane = &outlooks.world.surfaces.list[mesh.surface_of(element)].plane;
