@@ -29,7 +29,7 @@ use crate::visibility::Occluders;
 use state::last_state;
 
 /// Fewest cells along the edge of the hemicubes of shooters.
-const FEWEST_CELLS: usize = 32;
+const FEWEST_CELLS: usize = 16;
 
 /// Links kept for later shots; beyond them, rows are made anew.
 const KEPT_LINKS: usize = 8_000_000;
