@@ -6,6 +6,7 @@ mod candidates;
 mod evaluation;
 mod glimpse;
 mod globe;
+mod glow;
 mod lamp;
 mod lines;
 mod patch_light;
@@ -167,20 +168,16 @@ impl Lamps {
     }
 }
 
-/// The lamps that an emitting surface is: convex pieces, or its patches where a picture says how bright each is.
+/// The lamps that an emitting surface is: convex pieces, of its patches where a picture says how bright each is.
 fn areas_of(surfaces: &Surfaces, mesh: &Mesh, number: usize) -> Vec<AreaLamp> {
     let surface = &surfaces.list[number];
     let front = globe::front(surface, surfaces.tolerance);
     let profile = RadianceProfile::Diffuse;
     if surfaces.materials[surface.material as usize].emission_texture.is_some() {
         let patches = mesh.patches.iter().filter(|patch| patch.surface == number as u32);
-        return patches
-            .map(|patch| AreaLamp {
-                corners: patch.corners.iter().copied().collect(),
-                front,
-                exitance: patch.exitance,
-                profile,
-            })
+        let pieces = patches.flat_map(|patch| glow::pieces(surfaces, patch));
+        return pieces
+            .map(|(corners, exitance)| AreaLamp { corners, front, exitance, profile })
             .collect();
     }
     let cuts = Cuts { segments: &[], size: f64::INFINITY, tolerance: surfaces.tolerance };

@@ -1,6 +1,7 @@
-//! Luminaires from IES files (ANSI/IESNA LM-63-1986, 1991, 1995 and 2002).
+//! Luminaires from IES files (ANSI/IES LM-63-1986, 1991, 1995, 2002 and 2019).
 //!
-//! Read are type C photometry without tilt. The light is taken to come from a point.
+//! Read is type C photometry, as the luminaire was measured, whatever its lamps would do if it were tilted. The light is
+//! taken to come from a point.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -30,9 +31,10 @@ impl Scene {
         let bytes = std::fs::read(path).map_err(Error::io(path))?;
         // Names of makers may be in any encoding; figures are in all of them.
         let text = String::from_utf8_lossy(&bytes);
-        let (photometry, note) =
+        let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
+        let (photometry, notes) =
             parse(&text).map_err(|(line, message)| Error::at_line(path, line, message))?;
-        self.notes.extend(note.map(|note| format!("{}: {note}", path.display())));
+        self.notes.extend(notes.into_iter().map(|note| format!("{}: {note}", path.display())));
         let (photometry, turn) = (Arc::new(photometry), rotation.to_radians());
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let light = Light::Luminaire { position, photometry, turn };
@@ -87,7 +89,19 @@ impl Numbers<'_> {
         Ok(angles)
     }
 
-    /// The rest of the file, all numbers at least zero.
+    /// Past the table of a lamp's output by its tilt.
+    fn skip_tilt(&mut self) -> std::result::Result<(), Wrong> {
+        self.next("lamp's position in the luminaire")?;
+        let count = self.count("number of tilt angles", MOST_ANGLES)?;
+        for what in ["tilt angles", "factors by tilt"] {
+            for _ in 0..count {
+                self.next(what)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// So many numbers, all at least zero.
     fn candela(&mut self, count: usize) -> std::result::Result<Vec<f64>, Wrong> {
         let mut candela = Vec::new();
         for _ in 0..count {
@@ -97,21 +111,26 @@ impl Numbers<'_> {
             }
             candela.push(value);
         }
-        match self.words.next() {
-            Some((line, word)) => Err((line, format!("\"{word}\" after the last candela value"))),
-            None => Ok(candela),
-        }
+        Ok(candela)
     }
 }
 
 /// The table of a file, and what is strange about it.
-fn parse(text: &str) -> std::result::Result<(Photometry, Option<String>), Wrong> {
-    let (tilt, name) = header(text)?;
-    let words = text.lines().enumerate().skip(tilt).flat_map(|(line, text)| {
-        let separates = |c: char| c.is_whitespace() || c == ',' || c == '\u{1a}';
-        text.split(separates).filter(|word| !word.is_empty()).map(move |word| (line + 1, word))
+fn parse(text: &str) -> std::result::Result<(Photometry, Vec<String>), Wrong> {
+    let Header { tilt, line, rest, name, has_factor } = Header::read(text)?;
+    let lines = std::iter::once((line, rest)).chain((line + 1..).zip(text.lines().skip(line)));
+    let words = lines.flat_map(|(line, text)| {
+        let separates = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '\u{1a}' | '\0');
+        text.split(separates).filter(|word| !word.is_empty()).map(move |word| (line, word))
     });
-    let mut numbers = Numbers { words: Box::new(words), line: tilt };
+    let mut numbers = Numbers { words: Box::new(words), line };
+    let mut notes = Vec::new();
+    if !tilt.eq_ignore_ascii_case("NONE") {
+        if tilt.eq_ignore_ascii_case("INCLUDE") {
+            numbers.skip_tilt()?;
+        }
+        notes.push(format!("TILT={tilt} is left out: it hangs as it was measured"));
+    }
     let lamps = numbers.count("number of lamps", 1_000_000)?;
     let lumens = numbers.next("lumens by lamp")?;
     let multiplier = numbers.next("candela multiplier")?;
@@ -124,9 +143,9 @@ fn parse(text: &str) -> std::result::Result<(Photometry, Option<String>), Wrong>
     for what in ["unit of length", "width", "length", "height"] {
         numbers.next(what)?;
     }
-    // The factor of ballast and lamp together, of 1986 and 1991, has become one for the future.
-    let factors = [numbers.next("ballast factor")?, numbers.next("ballast lamp factor")?];
-    let ballast = factors[0] * factors[1];
+    let ballast = numbers.next("ballast factor")?;
+    let second = numbers.next("number after the ballast factor")?;
+    let ballast = if has_factor { ballast * second } else { ballast };
     if !(0.0..=100.0).contains(&ballast) {
         return Err((numbers.line, format!("ballast factor: {ballast} is out of range")));
     }
@@ -139,29 +158,56 @@ fn parse(text: &str) -> std::result::Result<(Photometry, Option<String>), Wrong>
     let mut candela = numbers.candela(vertical.len() * horizontal.len())?;
     candela.iter_mut().for_each(|value| *value *= multiplier);
     let mut photometry = Photometry { name, vertical, horizontal, candela };
-    let note = surplus(&photometry, lamps as f64 * lumens);
+    notes.extend(surplus(&photometry, lamps as f64 * lumens));
+    if let Some((line, word)) = numbers.words.next() {
+        notes.push(format!(
+            "line {line}: \"{word}\" and all after it is left out: no candela value lacks"
+        ));
+    }
     photometry.candela.iter_mut().for_each(|value| *value *= ballast);
-    Ok((photometry, note))
+    Ok((photometry, notes))
 }
 
-/// How many lines there are up to the one about tilt, and what the luminaire is called.
-fn header(text: &str) -> std::result::Result<(usize, String), Wrong> {
-    let mut name = String::new();
-    for (index, line) in text.lines().enumerate() {
-        let line = line.trim();
-        if let Some(luminaire) = line.strip_prefix("[LUMINAIRE]") {
-            luminaire.trim().clone_into(&mut name);
-        }
-        match line.strip_prefix("TILT=").map(str::trim) {
-            None => {}
-            Some("NONE") => return Ok((index + 1, name)),
-            Some(tilt) => {
-                let message = format!("TILT={tilt} is not supported; only TILT=NONE is");
-                return Err((index + 1, message));
+/// What stands before the figures.
+struct Header<'a> {
+    /// `NONE`, `INCLUDE` or the name of a file.
+    tilt: &'a str,
+    /// The line that says so, from 1.
+    line: usize,
+    /// What follows in that line: ends of lines get lost.
+    rest: &'a str,
+    /// What the luminaire is called.
+    name: String,
+    /// Whether the number after the ballast factor is one, too: of ballast and lamp together, in files as of 1986 and
+    /// 1991. Since 1995 it is one for the future, and since 2019 a code of who made the file.
+    has_factor: bool,
+}
+
+impl<'a> Header<'a> {
+    fn read(text: &'a str) -> std::result::Result<Self, Wrong> {
+        const TILT: &str = "TILT=";
+        let (mut name, mut has_factor) = (String::new(), true);
+        for (index, line) in text.lines().enumerate() {
+            let upper = line.to_ascii_uppercase();
+            if index == 0 {
+                let year =
+                    upper.split("LM-63-").nth(1).and_then(|rest| rest.get(..4)?.parse().ok());
+                has_factor = year.is_none_or(|year: u32| year < 1995);
+            }
+            if upper.trim_start().starts_with("[LUMINAIRE]") {
+                line.split_once(']').map_or("", |(_, name)| name).trim().clone_into(&mut name);
+            }
+            if let Some(at) = upper.find(TILT) {
+                let after = line[at + TILT.len()..].trim_start();
+                let end =
+                    after.find(|c: char| c.is_whitespace() || c == ',').unwrap_or(after.len());
+                let (tilt, rest) = after.split_at(end);
+                return Ok(Self { tilt, line: index + 1, rest, name, has_factor });
             }
         }
+        let message = "no line with TILT=; is this an IES file?".to_owned();
+        Err((text.lines().count().max(1), message))
     }
-    Err((text.lines().count().max(1), "no line with TILT=; is this an IES file?".to_owned()))
 }
 
 fn type_c(numbers: &mut Numbers<'_>) -> std::result::Result<(), Wrong> {
@@ -170,7 +216,11 @@ fn type_c(numbers: &mut Numbers<'_>) -> std::result::Result<(), Wrong> {
         2 => "B",
         _ => "A",
     };
-    Err((numbers.line, format!("type {name} photometry is not supported; only type C is")))
+    let message = format!(
+        "type {name} photometry, of floodlights and vehicles, is not supported; only type C is: ask the maker for that, \
+         or convert it in a program for photometric files"
+    );
+    Err((numbers.line, message))
 }
 
 /// Horizontal angles that say by which symmetry the others follow.

@@ -132,7 +132,7 @@ fn continues(
 
 /// The affine map from plane to texture coordinates, by the widest corner of the face.
 fn uv_map(scene: &Scene, plane: &Plane, face: &Face) -> Option<DAffine2> {
-    if face.uvs.is_empty() || scene.materials[face.material as usize].texture.is_none() {
+    if face.uvs.is_empty() {
         return None;
     }
     let places: Vec<DVec2> =

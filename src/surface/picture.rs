@@ -2,13 +2,13 @@
 
 use glam::{DAffine2, DVec2};
 
-use super::polygon::{Line, bounds};
+use super::polygon::{Convex, Line, area, bounds};
 use super::{Surface, Surfaces};
 use crate::colour::Rgb;
 use crate::scene::Texture;
 
-/// Most samples along one axis; finer textures are sampled, not integrated.
-const MOST_SAMPLES: f64 = 48.0;
+/// Most texels that are weighed one by one, along one axis; more are sampled at so many places.
+const MOST_TEXELS: f64 = 48.0;
 
 /// Mean colour of the reflectance's and of the emission's texture over a convex polygon on a
 /// surface; 1 without.
@@ -20,30 +20,94 @@ pub fn mean_texture(surfaces: &Surfaces, surface: &Surface, outline: &[DVec2]) -
     })
 }
 
-/// Mean over a grid as fine as the texels, as far as [`MOST_SAMPLES`] allows.
+/// Mean of a texture over a polygon: exact, unless it has too many texels.
 fn mean(texture: &Texture, uv: DAffine2, outline: &[DVec2]) -> Rgb {
-    let [low, high] = bounds(outline);
     let size = DVec2::new(f64::from(texture.width), f64::from(texture.height));
-    let texels = |side: DVec2| (uv.transform_vector2(side) * size).length();
-    let count = |side: DVec2| texels(side).ceil().clamp(4.0, MOST_SAMPLES) as u32;
-    let extent = high - low;
-    let (columns, rows) = (count(DVec2::new(extent.x, 0.0)), count(DVec2::new(0.0, extent.y)));
+    let on_texels: Convex = outline.iter().map(|&p| uv.transform_point2(p) * size).collect();
+    let [low, high] = bounds(&on_texels);
+    let sum = if (high - low).max_element() <= MOST_TEXELS {
+        weighed(&on_texels, |texel| texture.sample((texel + 0.5) / size))
+    } else {
+        sampled(&on_texels, |place| texture.sample(place / size))
+    };
+    let middle = || on_texels.iter().sum::<DVec2>() / on_texels.len().max(1) as f64;
+    sum.unwrap_or_else(|| texture.sample(middle() / size))
+}
 
+/// Mean over a polygon, in texels, each weighed by the part of it that is inside.
+fn weighed(outline: &Convex, colour: impl Fn(DVec2) -> Rgb) -> Option<Rgb> {
+    let (mut sum, mut whole) = (Rgb::ZERO, 0.0);
+    let [low, high] = bounds(outline);
+    for row in low.y.floor() as i64..high.y.ceil() as i64 {
+        let strip = between(outline, 1, row as f64);
+        let [low, high] = bounds(&strip);
+        for column in low.x.floor() as i64..high.x.ceil() as i64 {
+            let part = area(&between(&strip, 0, column as f64)).abs();
+            sum += colour(DVec2::new(column as f64, row as f64)) * part;
+            whole += part;
+        }
+    }
+    (whole > 0.0).then(|| sum / whole)
+}
+
+/// The part of a convex polygon between a coordinate and one more.
+fn between(outline: &Convex, axis: usize, low: f64) -> Convex {
+    clipped(&clipped(outline, |p| p[axis] - low), |p| low + 1.0 - p[axis])
+}
+
+/// The part of a convex polygon where `depth`, linear, is not negative.
+fn clipped(outline: &Convex, depth: impl Fn(DVec2) -> f64) -> Convex {
+    let mut inside = Convex::new();
+    for (k, &from) in outline.iter().enumerate() {
+        let to = outline[(k + 1) % outline.len()];
+        let (a, b) = (depth(from), depth(to));
+        if a >= 0.0 {
+            inside.push(from);
+        }
+        if a * b < 0.0 {
+            inside.push(from.lerp(to, a / (a - b)));
+        }
+    }
+    inside
+}
+
+/// Mean over a grid of places inside a polygon.
+fn sampled(outline: &Convex, colour: impl Fn(DVec2) -> Rgb) -> Option<Rgb> {
+    let [low, high] = bounds(outline);
+    let count = MOST_TEXELS as u32;
+    let turn = area(outline).signum();
     let borders: Vec<Line> = super::polygon::edges(outline).map(Line::through).collect();
     let (mut sum, mut samples) = (Rgb::ZERO, 0.0);
-    for row in 0..rows {
-        for column in 0..columns {
-            let share = DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5)
-                / DVec2::new(f64::from(columns), f64::from(rows));
-            let place = low + extent * share;
-            if borders.iter().all(|border| border.side(place, 0.0) >= 0.0) {
-                sum += texture.sample(uv.transform_point2(place));
+    for row in 0..count {
+        for column in 0..count {
+            let share = DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5);
+            let place = low + (high - low) * share / MOST_TEXELS;
+            if borders.iter().all(|border| border.side(place, 0.0) * turn >= 0.0) {
+                sum += colour(place);
                 samples += 1.0;
             }
         }
     }
-    if samples > 0.0 {
-        return sum / samples;
+    (samples > 0.0).then(|| sum / samples)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texels_count_by_their_share_of_a_polygon() {
+        // Left half 1, right half 0, over a triangle of which three quarters are left.
+        let outline: Convex =
+            [[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]].map(DVec2::from).into_iter().collect();
+        let colour = |texel: DVec2| Rgb::splat(f64::from(u8::from(texel.x < 4.0)));
+        let by_texel = weighed(&outline, colour).map_or(0.0, |mean| mean.x);
+        let by_place = sampled(&outline, colour).map_or(0.0, |mean| mean.x);
+        assert!((by_texel - 0.75).abs() < 1e-12, "{by_texel}");
+        assert!((by_place - 0.75).abs() < 0.02, "{by_place}");
+        // The other way round, between texels, and beyond the picture.
+        let turned: Convex = outline.iter().rev().map(|&p| p - DVec2::splat(0.25)).collect();
+        let found = weighed(&turned, |texel| colour(texel + 0.25)).map_or(0.0, |mean| mean.x);
+        assert!((found - (1.0 - (3.75_f64 / 8.0).powi(2))).abs() < 1e-12, "{found}");
     }
-    texture.sample(uv.transform_point2(super::polygon::centroid(outline)))
 }

@@ -120,17 +120,69 @@ fn what_sends_out_more_than_its_lamps_is_noted() {
     assert!(added(&bright).expect("it is right").notes.is_empty());
 }
 
+/// The flux of [`EVEN`] with something else in it, lm, and what is noted beside its surplus.
+fn as_found(from: &str, to: &str) -> (f64, Vec<String>) {
+    let text = EVEN.replace(from, to);
+    assert!(from.is_empty() || text != EVEN, "{from}");
+    let mut notes = added(&text).expect("it can be read").notes;
+    notes.retain(|note| !note.contains("sends out"));
+    (photometry(&text).flux(), notes)
+}
+
+#[test]
+fn the_number_after_the_ballast_factor_is_a_factor_in_old_files_only() {
+    let flux = |standard: &str, number: &str| {
+        let text = EVEN.replace("IESNA:LM-63-2002\n", standard).replace("0.5 1 60", number);
+        photometry(&text).flux() / (400.0 * PI)
+    };
+    for code in ["1.00001", "1.10000", "1.11000"] {
+        let found = flux("IES:LM-63-2019\n", &format!("0.5 {code} 60"));
+        assert!((found - 1.0).abs() < 1e-12, "{code}: {found}");
+    }
+    for standard in ["IESNA:LM-63-1995\n", "IESNA:LM-63-2002\n"] {
+        assert!((flux(standard, "0.5 0.9 60") - 1.0).abs() < 1e-12, "{standard}");
+    }
+    for standard in ["IESNA91\n", "MAKER\n", ""] {
+        assert!((flux(standard, "0.5 0.9 60") - 0.9).abs() < 1e-12, "{standard}");
+    }
+}
+
+#[test]
+fn files_as_they_are_found_are_read() {
+    let right = 400.0 * PI;
+    for (from, to) in [
+        ("\n", "\r"),
+        ("\n", "\r\n"),
+        ("TILT=NONE\n", "TILT=NONE "),
+        ("TILT=NONE", "tilt=None"),
+        ("[TEST] x\n", "[TESTLAB] x\n[TESTMETHOD] LM-79-19\n[ABSOLUTE] 1\n"),
+        (" ", ","),
+        ("100 100 100\n", "100 100 100\n\u{1a}"),
+    ] {
+        let (flux, notes) = as_found(from, to);
+        assert!((flux - right).abs() < 1e-9 && notes.is_empty(), "{to:?}: {flux} {notes:?}");
+    }
+    for (from, to, word) in [
+        ("TILT=NONE\n", "TILT=INCLUDE\n1\n3\n0 45 90\n1 0.95 0.9\n", "TILT=INCLUDE"),
+        ("TILT=NONE", "TILT=lamp.tlt", "TILT=lamp.tlt"),
+        ("100 100 100\n", "100 100 100\nEND 5\n", "\"END\""),
+    ] {
+        let (flux, notes) = as_found(from, to);
+        assert!((flux - right).abs() < 1e-9, "{to:?}: {flux}");
+        assert!(notes.len() == 1 && notes[0].contains(word), "{to:?}: {notes:?}");
+    }
+}
+
 #[test]
 fn what_is_not_supported_is_refused_with_its_line() {
     for (from, to, words) in [
-        ("TILT=NONE", "TILT=INCLUDE", ["lamp.ies:4", "TILT=INCLUDE"]),
+        ("TILT=NONE", "TILT=INCLUDE", ["lamp.ies:9", "ends before tilt angles"]),
         ("TILT=NONE", "", ["lamp.ies:9", "no line with TILT="]),
         ("3 1 1 2 0", "3 1 2 2 0", ["lamp.ies:5", "type B"]),
         ("3 1 1 2 0", "3 1 3 2 0", ["lamp.ies:5", "type A"]),
         ("0 90 180", "0 90 90", ["lamp.ies:7", "does not ascend"]),
         ("180\n0\n", "180\n5\n", ["lamp.ies:8", "from 5 to 5"]),
         ("100 100 100", "100 100", ["lamp.ies:9", "ends before candela"]),
-        ("100 100 100", "100 100 100 100", ["lamp.ies:9", "after the last"]),
         ("100 100 100", "100 -1 100", ["lamp.ies:9", "out of range"]),
         ("100 100 100", "100 many 100", ["lamp.ies:9", "\"many\""]),
         ("2000 2 3", "2000 2 1e9", ["lamp.ies:5", "vertical angles"]),

@@ -2,6 +2,7 @@
 
 mod asset;
 mod changed;
+mod emission;
 mod folder;
 mod found;
 mod gltf;

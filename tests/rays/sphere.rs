@@ -6,6 +6,7 @@ use radiosity::form_factor::hemicube::{self, DeltaFactors, Hemicube, Targets};
 use radiosity::form_factor::rays::{Rays, Sphere};
 use radiosity::mesh::{Mesh, Patch};
 use radiosity::surfaces_of;
+use radiosity::visibility::packet::RAYS;
 use radiosity::visibility::{Occluders, PatchHierarchy};
 
 use crate::common::furnished_room;
@@ -39,7 +40,7 @@ fn error(sphere: &Sphere, turn: f64) -> f64 {
 fn delta_factors_sum_to_one_and_rays_point_up() {
     for count in [1, 100, 4096, 50_001] {
         let sphere = Sphere::new(count);
-        assert!((count..count + 8).contains(&sphere.rays()), "{} for {count}", sphere.rays());
+        assert!((count..count + RAYS).contains(&sphere.rays()), "{} for {count}", sphere.rays());
         assert!((sphere.delta() * sphere.rays() as f64 - 1.0).abs() < 1e-12);
         assert!(sphere.directions().all(|d| (d.length() - 1.0).abs() < 1e-6 && d.z > 0.0));
     }
