@@ -92,10 +92,10 @@ impl<'a> Evaluation<'a> {
     }
 
     fn add_point(&mut self, number: u32, light: &Light, blockers: &Blockers) {
-        let (place, normal) = self.receiver;
-        let Some((sent, source)) = punctual::irradiance(light, place, normal) else { return };
+        let found = punctual::irradiance(light, self.receiver, self.lamps.blur);
+        let Some((sent, source)) = found else { return };
         self.evaluations += 1;
-        self.push(number, sent, blockers, source.end(place, self.occluders));
+        self.push(number, sent, blockers, source.end(self.receiver.0, self.occluders));
     }
 
     fn take(&mut self, view: &View<'_>, seen: Seen) {

@@ -40,6 +40,8 @@ pub struct Lamps {
     list: Vec<Lamp>,
     /// Rows of cells to each triangle of a light that is always sampled.
     rows: Option<u32>,
+    /// Radius of the discs on which the light of points is evaluated, m.
+    blur: f64,
     tally: Tally,
 }
 
@@ -104,7 +106,7 @@ impl Lamps {
         areas.retain(|lamp| lamp.exitance.max_element() > 0.0);
         let areas = areas.into_iter().map(Lamp::Area);
         let list = areas.chain(globes.into_iter().map(Lamp::Globe)).chain(points).collect();
-        Self { list, rows: None, tally: Tally::default() }
+        Self { list, rows: None, blur: 0.0, tally: Tally::default() }
     }
 
     /// With [`Settings::shadow_rays`](crate::settings::Settings::shadow_rays): what hides a polygon is found by about
@@ -113,6 +115,13 @@ impl Lamps {
     pub fn seen_by(self, rays: Option<u32>) -> Self {
         let rows = rays.map(|rays| f64::from(rays).sqrt().round().max(1.0) as u32);
         Self { rows, ..self }
+    }
+
+    /// With the light of points as the mean over discs of this radius, m: between places so far apart, no peak is
+    /// missed or taken for wider than it is.
+    #[must_use]
+    pub fn blurred(self, radius: f64) -> Self {
+        Self { blur: radius, ..self }
     }
 
     /// True if there is no light at all.

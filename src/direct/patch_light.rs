@@ -114,7 +114,9 @@ impl PatchLight {
             let lamp = &self.lamps.list[candidate.lamp as usize];
             let glance = (candidate.most < faint).then(|| lamp.glance(receiver)).flatten();
             match lamp {
-                Lamp::Point(light) => Some(punctual::irradiance(light, place, receiver.1)?.0),
+                Lamp::Point(light) => {
+                    Some(punctual::irradiance(light, receiver, self.lamps.blur)?.0)
+                }
                 lamp => glance
                     .map(|(light, _)| light)
                     .or_else(|| Some(lamp.view(receiver)?.unoccluded())),

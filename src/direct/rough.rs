@@ -67,7 +67,7 @@ impl Lamps {
                     (number, light, place_on(&view.polygon, [along, across]).0)
                 }));
             } else if let Lamp::Point(point) = lamp
-                && let Some((light, source)) = punctual::irradiance(point, receiver.0, receiver.1)
+                && let Some((light, source)) = punctual::irradiance(point, receiver, self.blur)
             {
                 sent.push((number, light, source.end(receiver.0, occluders)));
             }

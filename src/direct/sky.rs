@@ -95,7 +95,7 @@ pub(super) fn overcast(
 /// Solid angle of a convex spherical polygon, sr ([Van Oosterom and Strackee 1983]).
 ///
 /// [Van Oosterom and Strackee 1983]: https://doi.org/10.1109/TBME.1983.325207
-fn solid_angle(rays: &[DVec3]) -> f64 {
+pub(super) fn solid_angle(rays: &[DVec3]) -> f64 {
     let triangle = |pair: &[DVec3]| {
         let (a, b, c) = (rays[0], pair[0], pair[1]);
         let below = 1.0 + a.dot(b) + b.dot(c) + c.dot(a);

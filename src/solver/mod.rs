@@ -197,6 +197,10 @@ pub fn solve_with(
     Ok((exchange.solution(mesh, gathered, work), stages))
 }
 
+/// Light of points is evaluated on discs with so many of the shortest sides of elements as their radius: what these can
+/// follow.
+const BLUR: f64 = 4.0;
+
 /// All light straight from emitters on the patches of a mesh; there must be some.
 fn lamps_on(
     surfaces: &Surfaces,
@@ -206,7 +210,8 @@ fn lamps_on(
 ) -> Result<PatchLight> {
     // What is left of lamps once there has been enough is told to the end.
     let _ = observer.begin(Phase::Lamps, 0.0..1.0);
-    let lamps = Lamps::new(surfaces, mesh).seen_by(settings.shadow_rays);
+    let blur = BLUR * settings.min_element.metres(surfaces.extent);
+    let lamps = Lamps::new(surfaces, mesh).seen_by(settings.shadow_rays).blurred(blur);
     if lamps.is_empty() {
         return Err(Error::Scene(DARK.to_owned()));
     }
