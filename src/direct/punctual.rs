@@ -122,7 +122,7 @@ fn flux_through(light: &Light, [a, b, c]: [DVec3; 3], depth: u32) -> Rgb {
 /// Radiant intensity of a light that is somewhere, into a unit direction away from it, W/sr.
 ///
 /// A spot fades as `KHR_lights_punctual` recommends, with the square of a linear ramp over the cosine of the angle.
-pub(super) fn intensity(light: &Light, away: DVec3) -> Rgb {
+fn intensity(light: &Light, away: DVec3) -> Rgb {
     match *light {
         Light::Point { intensity, .. } => intensity,
         Light::Spot { direction, intensity, inner_angle, outer_angle, .. } => {

@@ -6,8 +6,6 @@
 //!
 //! [Lischinski, Tampieri and Greenberg 1993]: https://doi.org/10.1145/166117.166143
 
-use std::ops::RangeInclusive;
-
 use glam::DVec3;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -27,9 +25,9 @@ use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
 
-/// Fewest and most cells along the edge of the hemicubes over vertices: they measure visibility only, and vertices
+/// Most cells along the edge of the hemicubes over vertices: they measure visibility only, and vertices
 /// are many.
-const CELLS: RangeInclusive<usize> = 16..=32;
+const MOST_CELLS: usize = 32;
 
 /// Deepest division of a leaf seen from close by.
 const DEEPEST: u32 = 6;
@@ -78,7 +76,7 @@ impl<'a> Gatherer<'a> {
         sources: Sources,
         fine: f64,
     ) -> Self {
-        let resolution = enough_cells(groups.patches(), settings.tolerance, CELLS);
+        let resolution = enough_cells(groups.patches(), settings.tolerance, MOST_CELLS);
         let delta = DeltaFactors::new(resolution);
         Self {
             surfaces,

@@ -52,23 +52,13 @@ fn weighed(outline: &Convex, colour: impl Fn(DVec2) -> Rgb) -> Option<Rgb> {
 
 /// The part of a convex polygon between a coordinate and one more.
 fn between(outline: &Convex, axis: usize, low: f64) -> Convex {
-    clipped(&clipped(outline, |p| p[axis] - low), |p| low + 1.0 - p[axis])
-}
-
-/// The part of a convex polygon where `depth`, linear, is not negative.
-fn clipped(outline: &Convex, depth: impl Fn(DVec2) -> f64) -> Convex {
-    let mut inside = Convex::new();
-    for (k, &from) in outline.iter().enumerate() {
-        let to = outline[(k + 1) % outline.len()];
-        let (a, b) = (depth(from), depth(to));
-        if a >= 0.0 {
-            inside.push(from);
-        }
-        if a * b < 0.0 {
-            inside.push(from.lerp(to, a / (a - b)));
-        }
-    }
-    inside
+    let along = [DVec2::NEG_Y, DVec2::X][axis];
+    let part = |outline: &Convex, low: f64, along: DVec2| {
+        let from = DVec2::splat(low);
+        let [left, _] = Line::through([from, from + along]).split(outline, 0.0);
+        left.unwrap_or_default()
+    };
+    part(&part(outline, low, along), low + 1.0, -along)
 }
 
 /// Mean over a grid of places inside a polygon.

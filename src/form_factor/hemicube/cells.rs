@@ -7,9 +7,7 @@ use super::clip::FACES;
 use super::delta::DeltaFactors;
 use super::raster::{Footprint, LANES, count_up};
 
-/// No patch at all: light escapes through the cell. As bits of a floating point number, this and all
-/// numbers of patches are in order.
-pub(super) const NOTHING: u32 = 0x7f00_0000;
+pub(super) use crate::visibility::packet::NOTHING;
 
 /// Cells of the five faces, row by row; rows are filled up to whole registers.
 #[derive(Clone, Debug)]

@@ -31,12 +31,13 @@ use crate::visibility::{Occluders, PatchHierarchy};
 pub use delta::DeltaFactors;
 pub use element_map::ElementMap;
 pub use elements::ElementSums;
-pub(crate) use resolution::{enough_cells, is_by_rays};
+pub(crate) use resolution::enough_cells;
 pub use targets::Targets;
 
 use cells::{Cells, NOTHING, Run};
 use clip::Corners;
 use raster::Raster;
+use resolution::is_by_rays;
 
 /// Patches in one plane with the eye are seen edge-on, that is, not at all; heights below this, m,
 /// are rounding.

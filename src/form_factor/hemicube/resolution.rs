@@ -1,7 +1,5 @@
 //! How many cells are enough.
 
-use std::ops::RangeInclusive;
-
 /// At more patches to a cell, rays find what cells see sooner than projection: at 2.3 to a cell, in a room with a leafy
 /// plant, the exchange takes two thirds of the time.
 const CROWDED: usize = 2;
@@ -16,21 +14,17 @@ pub(super) const MANY: usize = CROWDED * 3 * CELLS[0] * CELLS[0];
 const SHARE: f64 = 0.12;
 
 /// True if so many patches outnumber a hemicube's cells, with so many along its edge, by so much that it looks by rays.
-pub(crate) fn is_by_rays(patches: usize, resolution: usize) -> bool {
+pub(super) fn is_by_rays(patches: usize, resolution: usize) -> bool {
     patches > CROWDED * 3 * resolution * resolution
 }
 
-/// Cells along the edge of a hemicube over so many patches: as few of those allowed as a relative tolerance of light
-/// admits, where rays fill them and fewer are quicker; else the most.
-pub(crate) fn enough_cells(
-    patches: usize,
-    tolerance: f64,
-    allowed: RangeInclusive<usize>,
-) -> usize {
+/// Cells along the edge of a hemicube over so many patches: as few as a relative tolerance of light admits, where rays
+/// fill them and fewer are quicker; else the `most`.
+pub(crate) fn enough_cells(patches: usize, tolerance: f64, most: usize) -> usize {
     let will_do = |&cells: &usize| {
-        allowed.contains(&cells) && is_by_rays(patches, cells) && error(cells) <= SHARE * tolerance
+        cells <= most && is_by_rays(patches, cells) && error(cells) <= SHARE * tolerance
     };
-    CELLS.into_iter().find(will_do).unwrap_or(*allowed.end())
+    CELLS.into_iter().find(will_do).unwrap_or(most)
 }
 
 /// Relative error, rms, of the irradiance that a look finds; measured in rooms of 16 000 and 80 000 facets.
@@ -44,9 +38,11 @@ mod tests {
 
     #[test]
     fn cells_are_fewer_only_where_rays_fill_them_and_errors_are_tolerated() {
-        let cells = |patches, tolerance| enough_cells(patches, tolerance, 32..=128);
+        let cells = |patches, tolerance| enough_cells(patches, tolerance, 128);
         assert_eq!(cells(1_000, 0.5), 128);
-        assert_eq!(cells(20_000, 0.08), 32);
+        assert_eq!(cells(20_000, 0.08), 16);
+        assert_eq!(cells(20_000, 0.03), 32);
+        assert_eq!(enough_cells(20_000, 0.02, 32), 32);
         assert_eq!(cells(20_000, 0.02), 128);
         assert_eq!(cells(100_000, 0.02), 64);
         assert_eq!(cells(1_000_000, 0.001), 128);

@@ -28,9 +28,6 @@ use crate::visibility::Occluders;
 
 use state::last_state;
 
-/// Fewest cells along the edge of the hemicubes of shooters.
-const FEWEST_CELLS: usize = 16;
-
 /// Links kept for later shots; beyond them, rows are made anew.
 const KEPT_LINKS: usize = 8_000_000;
 
@@ -107,7 +104,7 @@ impl<'a, 'o> Shooting<'a, 'o> {
         };
         let reflectances = (0..groups.len()).map(reflectance).collect();
         let most = settings.hemicube_resolution as usize;
-        let resolution = enough_cells(mesh.patches.len(), settings.tolerance, FEWEST_CELLS..=most);
+        let resolution = enough_cells(mesh.patches.len(), settings.tolerance, most);
         let mut shooting = Self {
             observer,
             mesh,
