@@ -14,6 +14,7 @@ mod pool;
 mod punctual;
 mod rough;
 mod sampling;
+mod sent;
 mod sky;
 mod tally;
 mod view;
@@ -29,6 +30,7 @@ use crate::visibility::{CROWDED, Occluders};
 
 pub use lines::Line;
 pub use patch_light::{Outlook, PatchLight};
+pub(crate) use sent::Sent;
 
 use lamp::{AreaLamp, Lamp};
 use tally::Tally;

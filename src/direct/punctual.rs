@@ -32,7 +32,7 @@ impl Source {
 const NEAR: f64 = 16.0;
 
 /// Discs within each other whose light is added up: a peak with steps that are not steep.
-const DISCS: usize = 4;
+const DISCS: usize = 8;
 
 /// Solid angle in which intensity is taken as even, sr, and how often a triangle is quartered at most to get there.
 const SMALL: f64 = 0.02;
@@ -122,7 +122,7 @@ fn flux_through(light: &Light, [a, b, c]: [DVec3; 3], depth: u32) -> Rgb {
 /// Radiant intensity of a light that is somewhere, into a unit direction away from it, W/sr.
 ///
 /// A spot fades as `KHR_lights_punctual` recommends, with the square of a linear ramp over the cosine of the angle.
-fn intensity(light: &Light, away: DVec3) -> Rgb {
+pub(super) fn intensity(light: &Light, away: DVec3) -> Rgb {
     match *light {
         Light::Point { intensity, .. } => intensity,
         Light::Spot { direction, intensity, inner_angle, outer_angle, .. } => {
@@ -139,7 +139,7 @@ fn intensity(light: &Light, away: DVec3) -> Rgb {
 }
 
 /// True if a file says that a light is not felt so far away, m.
-fn is_beyond(light: &Light, distance: f64) -> bool {
+pub(super) fn is_beyond(light: &Light, distance: f64) -> bool {
     match light {
         Light::Point { range, .. } | Light::Spot { range, .. } => {
             range.is_some_and(|range| distance > range)

@@ -1,5 +1,7 @@
 //! Patches of a scene's surfaces, and the vertices that their elements share.
 
+use std::collections::BTreeMap;
+
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use smallvec::SmallVec;
@@ -64,6 +66,7 @@ impl Mesh {
             patches: Vec::new(),
             elements: Vec::new(),
             vertices: Vec::new(),
+            steep: BTreeMap::new(),
             index: VertexIndex::new(surfaces),
             limit: settings.max_elements.unwrap_or(usize::MAX),
             is_full: false,

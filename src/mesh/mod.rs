@@ -6,6 +6,7 @@ mod split;
 mod statistics;
 mod validate;
 
+use std::collections::BTreeMap;
 use std::ops::Add;
 
 use glam::{DVec2, DVec3};
@@ -38,6 +39,8 @@ pub struct Mesh {
     pub elements: Vec<Element>,
     /// The corners of elements, and the places where light was evaluated to judge them.
     pub vertices: Vec<Vertex>,
+    /// Mean irradiance straight from emitters, W/m², of leaves on which it is too steep for their vertices to tell.
+    pub steep: BTreeMap<ElementId, Rgb>,
     index: VertexIndex,
     /// Most elements, see [`Settings::max_elements`](crate::settings::Settings::max_elements).
     limit: usize,

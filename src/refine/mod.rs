@@ -225,17 +225,17 @@ pub fn tolerated_direct(settings: &Settings, extent: f64, mesh: &Mesh) -> Vec<f3
     mesh.patches.iter().map(share).collect()
 }
 
-/// Estimate of the mean radiosity of the scene's surfaces, W/m², from the direct light at patch corners.
+/// Estimate of the mean radiosity of the scene's surfaces, W/m², from the direct light at the corners of leaves.
 ///
 /// Interreflection is taken as in a closed room: 1 / (1 - mean reflectance) times the direct light.
 pub fn mean_radiosity(mesh: &Mesh) -> f64 {
     let (mut area, mut reflected, mut reflectance) = (0.0, 0.0, 0.0);
-    for patch in &mesh.patches {
-        let corners = &mesh[patch.root].corners;
+    for leaf in mesh.leaves() {
+        let Element { ref corners, patch, area: part, .. } = mesh[leaf];
         let light: Rgb = corners.iter().filter_map(|&v| mesh[v].direct).map(|d| d.irradiance).sum();
-        reflected += strength(patch.reflectance * light) / corners.len() as f64 * patch.area;
-        reflectance += strength(patch.reflectance) * patch.area;
-        area += patch.area;
+        reflected += strength(mesh[patch].reflectance * light) / corners.len() as f64 * part;
+        reflectance += strength(mesh[patch].reflectance) * part;
+        area += part;
     }
     reflected / (area - reflectance).max(f64::MIN_POSITIVE)
 }

@@ -6,6 +6,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use smallvec::SmallVec;
 
+use super::arrival::steep_means;
 use super::groups::Groups;
 use super::lookout::{ONE_PLACE, neighbours};
 use super::outlooks::Outlooks;
@@ -150,6 +151,8 @@ pub(super) fn light_leaves(world: World<'_>, mesh: &mut Mesh, observer: &mut Obs
     light(&Outlooks::new(world, mesh), mesh, &leaves, observer);
     if observer.flow.is_break() {
         make_do(world.light, mesh);
+    } else {
+        mesh.steep = steep_means(world, mesh, &leaves);
     }
 }
 

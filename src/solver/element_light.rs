@@ -87,9 +87,10 @@ fn pull(mesh: &Mesh, leaf: impl Fn(ElementId) -> Rgb) -> Vec<Rgb> {
     values
 }
 
-/// Mean direct irradiance of a leaf.
-fn mean_direct(mesh: &Mesh, element: ElementId) -> Rgb {
-    mean(mesh, element, |v| mesh[v].direct.unwrap_or_default().irradiance)
+/// Mean direct irradiance of a leaf, W/m².
+pub(super) fn mean_direct(mesh: &Mesh, element: ElementId) -> Rgb {
+    let steep = mesh.steep.get(&element).copied();
+    steep.unwrap_or_else(|| mean(mesh, element, |v| mesh[v].direct.unwrap_or_default().irradiance))
 }
 
 /// Mean over a leaf of what is known at its corners and, it may be, in its middle: by Simpson's rule.

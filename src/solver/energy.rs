@@ -7,7 +7,7 @@ use crate::colour::Rgb;
 /// Powers, W per channel; what was emitted is what was absorbed, escaped or is still unshot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
-    /// Sent out by emitters; of lights without a surface, what arrives in the scene.
+    /// Sent out by emitters; of light from infinitely far, what arrives in the scene.
     pub emitted: Rgb,
     /// Absorbed by the fronts of surfaces.
     pub absorbed: Rgb,

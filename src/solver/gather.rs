@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use super::Observer;
+use super::glare::{Gaze, glaring};
 use super::groups::Groups;
 use super::lookout::{Arrival, LightField, Lookout, lookouts};
 use super::sources::{Piece, Sources};
@@ -31,6 +32,9 @@ const MOST_CELLS: usize = 32;
 
 /// Deepest division of a leaf seen from close by.
 const DEEPEST: u32 = 6;
+
+/// Gathering resolves differences down to this share of the tolerated error.
+const GATHER_SHARE: f64 = 0.13;
 
 /// Patches that fill less than this of a vertex's view may change without its light being gathered anew.
 const WIDE: f64 = 0.02;
@@ -58,7 +62,12 @@ pub(super) struct Gatherer<'a> {
     /// Vertices of a group of facets nearer to each other than this, m, have one view.
     near: f64,
     sources: Sources,
+    /// By patch: whether it is among `glaring`.
+    glares: Vec<bool>,
+    glaring: Vec<PatchId>,
     delta: DeltaFactors,
+    /// Mean radiosity of the scene, W/m².
+    level: f64,
     /// Elements whose parts may change a result by more than this, W/m², are taken in parts.
     fine: f64,
     /// What vertices saw whose light was gathered.
@@ -73,23 +82,37 @@ impl<'a> Gatherer<'a> {
     pub(super) fn new(
         (surfaces, occluders, groups): (&'a Surfaces, &'a Occluders, &'a Groups),
         settings: &Settings,
-        sources: Sources,
-        fine: f64,
+        (mesh, sources, level): (&Mesh, Sources, f64),
     ) -> Self {
         let resolution = enough_cells(groups.patches(), settings.tolerance, MOST_CELLS);
         let delta = DeltaFactors::new(resolution);
-        Self {
+        let mut gatherer = Self {
             surfaces,
             occluders,
             groups,
             near: 0.5 * settings.min_element.metres(surfaces.extent),
             sources,
+            glares: Vec::new(),
+            glaring: Vec::new(),
             delta,
-            fine,
+            level,
+            fine: GATHER_SHARE * settings.tolerance * level,
             views: Vec::new(),
             gathered: 0,
             factors: 0,
-        }
+        };
+        gatherer.find_glaring(mesh);
+        gatherer
+    }
+
+    /// Finds the patches that glare by the sources.
+    fn find_glaring(&mut self, mesh: &Mesh) {
+        let elements = glaring(mesh, &self.sources, self.level);
+        let glares =
+            |patch: PatchId| !self.groups.holds(patch) && elements[mesh[patch].root.index()];
+        let patches = (0..mesh.patches.len() as u32).map(PatchId);
+        self.glares = patches.clone().map(glares).collect();
+        self.glaring = patches.filter(|patch| self.glares[patch.index()]).collect();
     }
 
     /// Evaluates indirect light at those of the vertices that lack it.
@@ -127,6 +150,7 @@ impl<'a> Gatherer<'a> {
     /// of those that see much of what has changed, and of all that were interpolated.
     pub(super) fn replace_sources(&mut self, mesh: &mut Mesh, sources: Sources) {
         let before = std::mem::replace(&mut self.sources, sources);
+        self.find_glaring(mesh);
         let patches = (0..mesh.patches.len() as u32).map(PatchId);
         let change: Vec<f64> = patches.map(|p| self.sources.change(mesh, &before, p)).collect();
         let is_stale = |view: &View| {
@@ -202,10 +226,20 @@ impl<'a> Gatherer<'a> {
         let hemicube = hemicube.look(place, turn);
         let (mut factors, mut view) = (0, View::new());
         let is_whole = |patch: PatchId| !self.groups.holds(patch);
-        for sight in hemicube.sights_of(is_whole).filter(|sight| sight.front) {
+        let is_plain = |patch: PatchId| is_whole(patch) && !self.glares[patch.index()];
+        for sight in hemicube.sights_of(is_plain).filter(|sight| sight.front) {
             factors += self.receive(mesh, hemicube, (place, sight), arrive);
             if sight.delta > WIDE {
                 view.push((sight.patch, sight.delta));
+            }
+        }
+        let Self { surfaces, occluders, sources, fine, .. } = self;
+        let gaze = Gaze { mesh, surfaces, occluders, sources, eye: place, fine: *fine };
+        for &patch in &self.glaring {
+            let (factor, count) = gaze.receive(patch, arrive);
+            factors += count;
+            if factor > WIDE {
+                view.push((patch, factor));
             }
         }
         // Facets are many and small: their cells are all that is to be known of them.

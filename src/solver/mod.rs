@@ -4,12 +4,14 @@
 //! refines the mesh. Reflected light is exchanged between patches, coarsely. What arrives of it at
 //! the vertices is then gathered, and refines the mesh where it varies.
 
+mod arrival;
 mod by_light;
 mod checkpoint;
 mod direct_pass;
 mod element_light;
 mod energy;
 mod gather;
+mod glare;
 mod groups;
 mod indirect_pass;
 mod interpolate;
@@ -132,9 +134,6 @@ pub enum Phase {
 const DARK: &str = "nothing in the scene emits light; give a material an emission \
                     (Ke in an MTL file, emissiveFactor in glTF) or add a light";
 
-/// Gathering resolves differences down to this share of the tolerated error.
-const GATHER_SHARE: f64 = 0.13;
-
 /// How often light is gathered: from what the exchange left on the elements, then from what the first
 /// gathering found at their vertices. A third changed no result.
 const ROUNDS: usize = 2;
@@ -255,10 +254,12 @@ fn gather(
     (mesh, exchange): (&mut Mesh, &mut Exchange),
     observer: &mut Observer<'_>,
 ) -> (usize, u64) {
-    let fine = GATHER_SHARE * settings.tolerance * mean_radiosity(mesh);
     let oracle = Oracle::of_reflected_light(settings, world.surfaces.extent, mesh);
     let scene = (world.surfaces, world.occluders, world.groups);
-    let mut gatherer = Gatherer::new(scene, settings, exchange.sources(mesh), fine);
+    let mut gatherer = {
+        let sources = exchange.sources(mesh);
+        Gatherer::new(scene, settings, (mesh, sources, mean_radiosity(mesh)))
+    };
     for round in 1..=ROUNDS {
         indirect_pass::refine((settings, &oracle), &mut gatherer, mesh, observer);
         direct_pass::light_leaves(world, mesh, observer);

@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 
+use super::Solution;
 use super::gather::Gatherer;
 use super::groups::Groups;
 use super::sources::Sources;
-use super::{GATHER_SHARE, Solution};
 use crate::colour::{LUMENS_PER_WATT, Rgb, luminance};
 use crate::direct::Lamps;
 use crate::form_factor::hemicube::{Hemicube, Targets, turn};
@@ -59,10 +59,10 @@ pub fn read(
 ) -> Vec<Reading> {
     let (mesh, occluders) = (&solution.mesh, Occluders::new(surfaces));
     let lamps = Lamps::new(surfaces, mesh).seen_by(settings.shadow_rays);
-    let fine = GATHER_SHARE * settings.tolerance * mean_radiosity(mesh);
+    let light = (mesh, Sources::of_vertices(mesh), mean_radiosity(mesh));
     let groups = Groups::new(surfaces, settings, mesh);
     let world = (surfaces, &occluders, &groups);
-    let gatherer = Gatherer::new(world, settings, Sources::of_vertices(mesh), fine);
+    let gatherer = Gatherer::new(world, settings, light);
     let targets = Targets::new(&mesh.patches);
     let hemicube = || Hemicube::new(gatherer.delta(), &targets, &occluders);
     let numbered: Vec<_> = places.iter().copied().enumerate().collect();

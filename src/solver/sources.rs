@@ -1,6 +1,6 @@
 //! What the elements reflect, as a gathering vertex sees it: finer the nearer it looks.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use smallvec::SmallVec;
 
 use super::ElementLight;
@@ -45,6 +45,12 @@ impl Sources {
         sources
     }
 
+    /// From the direct light of elements and vertices.
+    pub(super) fn of_direct_light(mesh: &Mesh, light: &ElementLight) -> Self {
+        let direct = |vertex: &Vertex| vertex.direct.unwrap_or_default().irradiance;
+        Self::new(mesh, light, mesh.vertices.iter().map(direct).collect())
+    }
+
     /// From the light of all vertices.
     pub(super) fn of_vertices(mesh: &Mesh) -> Self {
         let irradiance = mesh.vertices.iter().map(Vertex::irradiance).collect();
@@ -87,11 +93,15 @@ impl Sources {
     /// A leaf as a piece whose mean is the leaf's; the corners say how light varies over it.
     pub(super) fn piece(&self, mesh: &Mesh, surfaces: &Surfaces, leaf: ElementId) -> Piece {
         let plane = &surfaces.list[mesh.surface_of(leaf)].plane;
-        let light = self.corners(mesh, leaf);
-        let shift = self.mean(leaf) - light.iter().sum::<Rgb>() / light.len() as f64;
+        let (light, mean) = (self.corners(mesh, leaf), self.mean(leaf));
+        let around = light.iter().sum::<Rgb>() / light.len() as f64;
+        // Nothing becomes negative, and the mean is kept.
+        let adapted = |corner: Rgb| {
+            Rgb::select(mean.cmplt(around), corner * (mean / around), corner + (mean - around))
+        };
         Piece {
             corners: mesh[leaf].corners.iter().map(|&v| plane.lift(mesh[v].position)).collect(),
-            light: light.iter().map(|&corner| (corner + shift).max(Rgb::ZERO)).collect(),
+            light: light.into_iter().map(adapted).collect(),
         }
     }
 
@@ -109,6 +119,33 @@ impl Piece {
         self.light.iter().sum::<Rgb>() / self.light.len() as f64
     }
 
+    /// Mean of the corners, m.
+    pub(super) fn centre(&self) -> DVec3 {
+        self.corners.iter().sum::<DVec3>() / self.corners.len() as f64
+    }
+
+    /// Radiosity at a place on it, W/m², by the plane that fits the corners best.
+    pub(super) fn at(&self, place: DVec3) -> Rgb {
+        let (centre, mean) = (self.centre(), self.mean());
+        let (mut square, mut slopes) = (DMat3::ZERO, [DVec3::ZERO; 3]);
+        for (&corner, &light) in self.corners.iter().zip(&self.light) {
+            let aside = corner - centre;
+            square += outer(aside);
+            for (slope, rise) in slopes.iter_mut().zip((light - mean).to_array()) {
+                *slope += aside * rise;
+            }
+        }
+        // Across the plane nothing rises, so any other number there would do.
+        let [a, b] = [0, 1].map(|k| self.corners[k + 1] - self.corners[k]);
+        let normal = a.cross(b).normalize_or_zero();
+        let square = square + outer(normal) * (square.x_axis.x + square.y_axis.y + square.z_axis.z);
+        if square.determinant() <= f64::MIN_POSITIVE {
+            return mean;
+        }
+        let towards = square.inverse() * (place - centre);
+        (mean + Rgb::from_array(slopes.map(|slope| slope.dot(towards)))).max(Rgb::ZERO)
+    }
+
     /// How far the corners are from the mean, W/m².
     pub(super) fn spread(&self) -> f64 {
         let mean = self.mean();
@@ -118,7 +155,7 @@ impl Piece {
     /// Its parts between each corner, the middles of the edges there, and its centre.
     pub(super) fn parts(&self) -> SmallVec<[Self; 4]> {
         let n = self.corners.len();
-        let centre = (self.corners.iter().sum::<DVec3>() / n as f64, self.mean());
+        let centre = (self.centre(), self.mean());
         let at = |k: usize| (self.corners[k % n], self.light[k % n]);
         let half = |a: (DVec3, Rgb), b: (DVec3, Rgb)| ((a.0 + b.0) * 0.5, (a.1 + b.1) * 0.5);
         let part = |k: usize| {
@@ -128,4 +165,9 @@ impl Piece {
         };
         (0..n).map(part).collect()
     }
+}
+
+/// v vᵀ.
+fn outer(v: DVec3) -> DMat3 {
+    DMat3::from_cols(v * v.x, v * v.y, v * v.z)
 }

@@ -12,7 +12,7 @@ use super::groups::Groups;
 use super::parts::{self, Facets};
 use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::{Hemicube, Sight, turn};
-use crate::mesh::{ElementId, Mesh, PatchId};
+use crate::mesh::{Element, ElementId, Mesh, PatchId};
 use crate::surface::Surfaces;
 use crate::surface::polygon::centroid;
 
@@ -25,6 +25,12 @@ pub(super) const CLOSE: f64 = 0.4;
 
 /// An element looks by its parts if more than this share of its view is close.
 pub(super) const CLOSE_SHARE: f64 = 0.05;
+
+/// The same for elements that glare, whose centre may see little of what hides most of the light.
+const CLOSE_TO_GLARE: f64 = 2.0;
+
+/// And the share of their view.
+const SHARE_OF_GLARE: f64 = 0.002;
 
 /// Levels of a tree down to which elements look for themselves; below them it changed no result.
 const LOOK_LEVELS: u32 = 2;
@@ -50,15 +56,36 @@ pub(super) struct Link {
     pub(super) exchange: f64,
 }
 
-/// The row of a group of patches, most often a single one.
-pub(super) fn row(
-    (surfaces, mesh, groups): (&Surfaces, &Mesh, &Groups),
-    hemicube: &mut Hemicube<'_>,
-    shooter: usize,
-) -> Row {
-    match groups.members(shooter) {
-        &[patch] => row_of_patch((surfaces, mesh, groups), hemicube, patch),
-        members => parts::row((surfaces, mesh, groups), hemicube, members),
+/// What light is exchanged between.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Transport<'a> {
+    pub(super) surfaces: &'a Surfaces,
+    pub(super) mesh: &'a Mesh,
+    pub(super) groups: &'a Groups,
+    /// By element: whether the light that it shoots first varies so much over it that it glares.
+    pub(super) glares: &'a [bool],
+}
+
+impl Transport<'_> {
+    /// The row of a group of patches, most often a single one.
+    pub(super) fn row(self, hemicube: &mut Hemicube<'_>, shooter: usize) -> Row {
+        let Self { surfaces, mesh, groups, .. } = self;
+        match groups.members(shooter) {
+            &[patch] => row_of_patch(self, hemicube, patch),
+            members => parts::row((surfaces, mesh, groups), hemicube, members),
+        }
+    }
+
+    /// True if an element's parts must look for themselves, since what is close to them is not so to its centre.
+    ///
+    /// Where light varies steeply, it is between them that it does, not between them and others alone.
+    fn looks_by_parts(self, hemicube: &Hemicube<'_>, element: ElementId, size: f64) -> bool {
+        let is_close = |sizes: f64, share: f64| hemicube.share_within(sizes * size) > share;
+        let Element { level, children, .. } = &self.mesh[element];
+        let is_whole = children.is_empty();
+        !is_whole
+            && (*level < LOOK_LEVELS && is_close(CLOSE, CLOSE_SHARE)
+                || self.glares[element.index()] && is_close(CLOSE_TO_GLARE, SHARE_OF_GLARE))
     }
 }
 
@@ -66,11 +93,8 @@ pub(super) fn row(
 ///
 /// Where something is so close that the patch's centre cannot see for all of it, its parts look for
 /// themselves.
-fn row_of_patch(
-    (surfaces, mesh, groups): (&Surfaces, &Mesh, &Groups),
-    hemicube: &mut Hemicube<'_>,
-    shooter: PatchId,
-) -> Row {
+fn row_of_patch(transport: Transport<'_>, hemicube: &mut Hemicube<'_>, shooter: PatchId) -> Row {
+    let Transport { surfaces, mesh, groups, .. } = transport;
     let patch = &mesh[shooter];
     let mut row = Row::default();
     let mut open = vec![patch.root];
@@ -78,10 +102,8 @@ fn row_of_patch(
         let place = Place::new(mesh, surfaces, source);
         let eye = (place.centre, place.normal);
         let hemicube = hemicube.look(eye, turn(source.index() as f64));
-        let parts = &mesh[source].children;
-        let divisible = mesh[source].level < LOOK_LEVELS && !parts.is_empty();
-        if divisible && hemicube.share_within(CLOSE * place.size) > CLOSE_SHARE {
-            open.extend_from_slice(parts);
+        if transport.looks_by_parts(hemicube, source, place.size) {
+            open.extend_from_slice(&mesh[source].children);
             continue;
         }
         let share = mesh[source].area / patch.area;

@@ -14,14 +14,17 @@ use serde::{Deserialize, Serialize};
 
 use super::direct_pass::World;
 use super::energy::Energy;
+use super::glare::glaring;
 use super::groups::Groups;
 use super::relaxation::{Course, Relaxation, Residuals, Step};
+use super::sources::Sources;
 use super::transport::{Link, Row};
 use super::{ElementLight, Observer, Phase, Stop};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
 use crate::form_factor::hemicube::{DeltaFactors, Targets, enough_cells};
 use crate::mesh::{ElementId, Mesh, PatchId};
+use crate::refine::mean_radiosity;
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
@@ -54,6 +57,8 @@ pub(super) struct Shooting<'a, 'o> {
     kept: usize,
     most_kept: usize,
     groups: &'a Groups,
+    /// By element: whether its direct light glares.
+    glares: Vec<bool>,
     /// By group: its area, m².
     areas: Vec<f64>,
     /// By group: its mean reflectance.
@@ -82,11 +87,12 @@ impl<'a, 'o> Shooting<'a, 'o> {
     /// Books the direct light: emitters have shot, patches hold what they reflect of it.
     pub(super) fn new(
         mesh: &'a Mesh,
-        World { surfaces, occluders, groups, .. }: World<'a>,
+        world: World<'a>,
         settings: &Settings,
         (light, observer): (&ElementLight, &'a mut Observer<'o>),
     ) -> Self {
         let _ = observer.tell(Phase::Shooting, 0.0);
+        let World { surfaces, occluders, groups, .. } = world;
         let direct = |patch: &crate::mesh::Patch| light.direct[patch.root.index()];
         let members = |group: usize| groups.members(group).iter().map(|&patch| &mesh[patch]);
         let areas: Vec<f64> =
@@ -114,6 +120,7 @@ impl<'a, 'o> Shooting<'a, 'o> {
             targets: Targets::new(&mesh.patches),
             rows: vec![None; groups.len()],
             groups,
+            glares: glaring(mesh, &Sources::of_direct_light(mesh, light), mean_radiosity(mesh)),
             kept: 0,
             most_kept: most_kept(settings),
             trees: mesh.trees(),
@@ -129,17 +136,8 @@ impl<'a, 'o> Shooting<'a, 'o> {
             hemicubes: 0,
             factors: 0,
         };
-        let mut arrived = Rgb::ZERO;
-        for patch in &mesh.patches {
-            let received = direct(patch) * patch.area;
-            arrived += received;
-            shooting.energy.absorbed += (Rgb::ONE - patch.reflectance) * received;
-        }
         shooting.book_emitters();
-        if !surfaces.lights.is_empty() {
-            let elsewhere = shooting.energy.escaped + shooting.energy.on_backs;
-            shooting.energy.emitted = shooting.energy.emitted.max(arrived + elsewhere);
-        }
+        shooting.book_direct_light(world, light);
         shooting.energy.unshot = shooting.unshot_power();
         shooting
     }

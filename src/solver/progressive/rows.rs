@@ -1,12 +1,42 @@
 //! Rows of the exchange, made when they are needed.
 
 use super::Shooting;
+use crate::colour::Rgb;
+use crate::direct::Sent;
 use crate::form_factor::hemicube::Hemicube;
 use crate::mesh::PatchId;
-use crate::solver::transport::{Row, row};
+use crate::refine::strength;
+use crate::solver::ElementLight;
+use crate::solver::arrival::{ERROR, arrival};
+use crate::solver::direct_pass::World;
+use crate::solver::transport::{Row, Transport};
 
 impl Shooting<'_, '_> {
-    /// What emitters send past all fronts; of lights without a surface, all that arrives is emitted.
+    /// What lights at points send out and past all fronts, and what fronts absorb of all direct light.
+    ///
+    /// Of light from infinitely far, all that arrives is emitted.
+    pub(super) fn book_direct_light(&mut self, world: World<'_>, light: &ElementLight) {
+        let (mesh, surfaces) = (self.mesh, self.surfaces);
+        let is_back = |surface: u32| !surfaces.list[surface as usize].two_sided;
+        let Sent { emitted, escaped, on_backs } =
+            world.light.lamps().sent_by_points(self.occluders, is_back);
+        self.energy.emitted += emitted;
+        self.energy.escaped += escaped;
+        self.energy.on_backs += on_backs;
+        // Once there has been enough, what the elements know will do.
+        let error = if self.observer.flow.is_break() { f64::INFINITY } else { ERROR };
+        let arrival = arrival(world, mesh, (light, error * strength(self.energy.emitted)));
+        for (patch, &received) in mesh.patches.iter().zip(&arrival) {
+            self.energy.absorbed += (Rgb::ONE - patch.reflectance) * received;
+        }
+        if surfaces.lights.iter().any(|named| named.light.position().is_none()) {
+            let elsewhere = self.energy.escaped + self.energy.on_backs;
+            let arrived: Rgb = arrival.iter().sum();
+            self.energy.emitted = self.energy.emitted.max(arrived + elsewhere);
+        }
+    }
+
+    /// What emitters send past all fronts.
     ///
     /// Once there has been enough, what they send past is not known of all of them.
     pub(super) fn book_emitters(&mut self) {
@@ -60,12 +90,13 @@ impl Shooting<'_, '_> {
         groups: &[usize],
         take: impl Fn(Row) -> R + Sync + Send,
     ) -> Vec<R> {
-        let scene = (self.surfaces, self.mesh, self.groups);
+        let Self { surfaces, mesh, ref glares, .. } = *self;
+        let transport = Transport { surfaces, mesh, groups: self.groups, glares };
         let (delta, targets, occluders) = (&self.delta, &self.targets, self.occluders);
         self.observer.map(
             groups,
             || Hemicube::new(delta, targets, occluders),
-            |hemicube, &shooter| take(row(scene, hemicube, shooter)),
+            |hemicube, &shooter| take(transport.row(hemicube, shooter)),
         )
     }
 }

@@ -1,0 +1,145 @@
+//! The direct light that arrives on patches and on leaves where their vertices cannot tell.
+//!
+//! Black patches are never divided, however unevenly they are lit; and light may fall off over less than the smallest
+//! element, as beside a lamp that all but touches a ceiling. The books, and all that is reflected, need the right mean.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+use rayon::prelude::*;
+use smallvec::SmallVec;
+
+use super::ElementLight;
+use super::direct_pass::{World, reflects};
+use super::element_light::mean_direct;
+use crate::colour::Rgb;
+use crate::direct::Outlook;
+use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
+use crate::refine::strength;
+
+/// A patch with a lamp nearer than this many of its sizes is lit unevenly.
+const NEAR: f64 = 2.0;
+
+/// As are those whose corners and middles differ by more than this share of the most.
+const UNEVEN: f64 = 0.1;
+
+/// Uneven parts are divided so often at least, so that no narrow beam is missed, and so often at most.
+const LEVELS: [u32; 2] = [4, 9];
+
+/// Parts are divided until their power changes by less than this share of all that arrives.
+pub(super) const ERROR: f64 = 2e-5;
+
+/// Direct light on each patch, W; right to within an `error` in each part that it takes to find it, W.
+pub(super) fn arrival(
+    world: World<'_>,
+    mesh: &Mesh,
+    (light, error): (&ElementLight, f64),
+) -> Vec<Rgb> {
+    let numbers: Vec<PatchId> = (0..mesh.patches.len() as u32).map(PatchId).collect();
+    let on = |&patch: &PatchId| {
+        let whole = &mesh[patch];
+        let known = light.direct[whole.root.index()] * whole.area;
+        let outlook = world.light.on(patch);
+        let is_even = || {
+            let matters = strength(known) > error && is_uneven(mesh, patch);
+            !matters && (error.is_infinite() || !outlook.is_near(mesh, NEAR * whole.area.sqrt()))
+        };
+        if reflects(mesh, whole.root) || world.groups.holds(patch) || is_even() {
+            return known;
+        }
+        let part = Part { corners: whole.corners.iter().copied().collect(), outlook: &outlook };
+        part.integral((part.power(), error), 0)
+    };
+    numbers.par_iter().map(on).collect()
+}
+
+/// Mean direct irradiance, W/m², of those of the leaves on which it is so steep that vertices misjudge it.
+pub(super) fn steep_means(
+    world: World<'_>,
+    mesh: &Mesh,
+    leaves: &[ElementId],
+) -> BTreeMap<ElementId, Rgb> {
+    let power = |&leaf: &ElementId| strength(mean_direct(mesh, leaf)) * mesh[leaf].area;
+    let error = ERROR * leaves.iter().map(power).sum::<f64>();
+    let mean = |&leaf: &ElementId| {
+        let element = &mesh[leaf];
+        if !reflects(mesh, leaf) || doubt(mesh, leaf) * element.area <= error {
+            return None;
+        }
+        let plane = &world.surfaces.list[mesh.surface_of(leaf)].plane;
+        let corners = element.corners.iter().map(|&v| plane.lift(mesh[v].position)).collect();
+        let outlook = world.light.on(element.patch);
+        let part = Part { corners, outlook: &outlook };
+        Some((leaf, part.integral((part.power(), error), 0) / element.area))
+    };
+    let found: Vec<Option<(ElementId, Rgb)>> = leaves.par_iter().map(mean).collect();
+    found.into_iter().flatten().collect()
+}
+
+/// By how much the mean over a leaf by Simpson's rule differs from that by trapezia, W/m².
+fn doubt(mesh: &Mesh, leaf: ElementId) -> f64 {
+    let Some(middle) = mesh.find_middle(leaf) else { return 0.0 };
+    let at = |v: VertexId| mesh[v].direct.unwrap_or_default().irradiance;
+    let mean = |of: &[VertexId]| of.iter().map(|&v| at(v)).sum::<Rgb>() / of.len() as f64;
+    let [corners, edges] = [&mesh[leaf].corners[..], &middle.edges[..]].map(mean);
+    if mesh[leaf].corners.len() == 4 {
+        let centre = at(middle.centre);
+        let simpson = (corners + 4.0 * edges + 4.0 * centre) / 9.0;
+        return strength(simpson - (corners + 2.0 * edges + centre) / 4.0);
+    }
+    strength(edges - corners) / 4.0
+}
+
+/// True if the light that is known on a patch varies.
+fn is_uneven(mesh: &Mesh, patch: PatchId) -> bool {
+    let root = mesh[patch].root;
+    let middle = mesh.find_middle(root);
+    let middle = middle.iter().flat_map(|middle| middle.edges.iter().chain([&middle.centre]));
+    let lit = mesh[root].corners.iter().chain(middle).filter_map(|&v| mesh[v].direct);
+    let strengths: SmallVec<[f64; 16]> = lit.map(|direct| strength(direct.irradiance)).collect();
+    let most = strengths.iter().copied().fold(0.0, f64::max);
+    strengths.iter().any(|&here| here < (1.0 - UNEVEN) * most)
+}
+
+/// A convex part of a patch.
+struct Part<'a> {
+    corners: SmallVec<[DVec3; 4]>,
+    outlook: &'a Outlook<'a>,
+}
+
+impl Part<'_> {
+    fn centre(&self) -> DVec3 {
+        self.corners.iter().sum::<DVec3>() / self.corners.len() as f64
+    }
+
+    /// What arrives in its middle for all of it, W.
+    fn power(&self) -> Rgb {
+        let [first, others @ ..] = self.corners.as_slice() else { return Rgb::ZERO };
+        let sides = others.windows(2).map(|pair| (pair[0] - *first).cross(pair[1] - *first));
+        let area = sides.sum::<DVec3>().length() / 2.0;
+        self.outlook.at(self.centre()).irradiance * area
+    }
+
+    /// Between each corner, the middles of the edges there, and its centre.
+    fn parts(&self) -> impl Iterator<Item = Self> {
+        let (n, centre) = (self.corners.len(), self.centre());
+        (0..n).map(move |k| {
+            let [before, at, after] = [k + n - 1, k, k + 1].map(|k| self.corners[k % n]);
+            let corners = [at, at.midpoint(after), centre, before.midpoint(at)];
+            Self { corners: corners.into(), outlook: self.outlook }
+        })
+    }
+
+    /// What arrives on it, W, if it seems to be `power`; right to about the `error` given.
+    fn integral(&self, (power, error): (Rgb, f64), level: u32) -> Rgb {
+        let parts: SmallVec<[Self; 4]> = self.parts().collect();
+        let powers: SmallVec<[Rgb; 4]> = parts.iter().map(Self::power).collect();
+        let sum: Rgb = powers.iter().sum();
+        let [least, most] = LEVELS;
+        if level >= most || level >= least && strength(sum - power) <= error {
+            return sum;
+        }
+        let each = parts.iter().zip(powers);
+        each.map(|(part, power)| part.integral((power, error), level + 1)).sum()
+    }
+}

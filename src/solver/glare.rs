@@ -1,0 +1,135 @@
+//! Patches on which light varies far beyond all others, as the places that gather it see them.
+//!
+//! The spot over a lamp that shines at the ceiling from close by is the usual one. What hides a part of such a patch
+//! is often what lights it, so that the bright part is the hidden one: the share of cells that see the patch, right for
+//! any other, would be wrong. So it is seen piece by piece.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
+use super::lookout::Arrival;
+use super::sources::{Piece, Sources};
+use crate::colour::Rgb;
+use crate::form_factor::contour::point_to_polygon;
+use crate::mesh::{ElementId, Mesh, PatchId};
+use crate::surface::Surfaces;
+use crate::visibility::{HalfSpace, Occluders};
+
+/// Radiosity that varies by more than this many times the mean of the scene glares.
+const GLARING: f64 = 4.0;
+
+/// Deepest division of a leaf.
+const DEEPEST: u32 = 6;
+
+/// By element, whether its radiosity varies so much, in a scene with a mean radiosity of `level`, W/m².
+pub(super) fn glaring(mesh: &Mesh, sources: &Sources, level: f64) -> Vec<bool> {
+    let elements = (0..mesh.elements.len() as u32).map(ElementId);
+    elements.map(|element| sources.spread(element) > GLARING * level).collect()
+}
+
+/// A place that light is gathered at, looking at one patch that glares.
+pub(super) struct Gaze<'a> {
+    pub(super) mesh: &'a Mesh,
+    pub(super) surfaces: &'a Surfaces,
+    pub(super) occluders: &'a Occluders,
+    pub(super) sources: &'a Sources,
+    /// The place, m, and its unit normal.
+    pub(super) eye: (DVec3, DVec3),
+    /// Differences of irradiance that do not matter, W/m².
+    pub(super) fine: f64,
+}
+
+/// One such patch before that place.
+struct Look<'g, 'a> {
+    gaze: &'g Gaze<'a>,
+    /// Unit normal of the patch.
+    normal: DVec3,
+    /// Whether nothing stands before it.
+    is_clear: bool,
+    /// How many factors it took so far.
+    factors: u64,
+}
+
+impl Gaze<'_> {
+    /// Tells `arrive` of the light of a patch. Returns the patch's form factor, as if nothing stood before it, and how
+    /// many factors it took.
+    pub(super) fn receive(
+        &self,
+        patch: PatchId,
+        arrive: &mut impl FnMut(&Arrival<'_>),
+    ) -> (f64, u64) {
+        let Self { mesh, sources, eye: (site, normal), .. } = *self;
+        let patch = &mesh[patch];
+        let above = HalfSpace::new(site, normal).clip(&patch.corners);
+        let is_before = (site - patch.corners[0]).dot(patch.normal) > self.occluders.tolerance();
+        if above.len() < 3 || !is_before {
+            return (0.0, 0);
+        }
+        let is_clear = !self.occluders.may_be_hidden(site, &above, patch.normal);
+        let mut look = Look { gaze: self, normal: patch.normal, is_clear, factors: 0 };
+        let mut open: SmallVec<[ElementId; 32]> = SmallVec::from_elem(patch.root, 1);
+        while let Some(source) = open.pop() {
+            let piece = sources.piece(mesh, self.surfaces, source);
+            let factor = look.factor(&piece.corners);
+            let parts = sources.parts(mesh, source);
+            if !parts.is_empty() && look.is_coarse(factor, sources.spread(source)) {
+                open.extend_from_slice(parts);
+                continue;
+            }
+            let light = look.light((&piece, factor), DEEPEST);
+            arrive(&Arrival { light, corners: &piece.corners });
+        }
+        (look.factor(&patch.corners), look.factors)
+    }
+}
+
+impl Look<'_, '_> {
+    /// Irradiance by a piece of a leaf with this form factor, divided while its variation matters.
+    fn light(&mut self, (piece, factor): (&Piece, f64), depth: u32) -> Rgb {
+        if depth == 0 || !self.is_coarse(factor, piece.spread()) {
+            return if self.is_clear { piece.mean() * factor } else { self.seen(piece) };
+        }
+        let parts = piece.parts().into_iter();
+        let mut light = |part: Piece| {
+            let factor = self.factor(&part.corners);
+            self.light((&part, factor), depth - 1)
+        };
+        parts.map(&mut light).sum()
+    }
+
+    /// True if a source whose radiosity is up to so far from its mean, W/m², may send more or less than it seems to by as
+    /// much as matters.
+    ///
+    /// Of what is seen whole, the mean is right but for how unlike its parts are seen: the less, the smaller it looks.
+    fn is_coarse(&self, factor: f64, spread: f64) -> bool {
+        let unlike = if self.is_clear { size(factor).min(1.0) } else { 1.0 };
+        factor * spread * unlike > self.gaze.fine
+    }
+
+    /// Irradiance by what is not hidden of a piece.
+    fn seen(&mut self, piece: &Piece) -> Rgb {
+        let (site, normal) = self.gaze.eye;
+        let above = HalfSpace::new(site, normal).clip(&piece.corners);
+        if above.len() < 3 {
+            return Rgb::ZERO;
+        }
+        let seen = self.gaze.occluders.visible_pieces(site, &above, self.normal);
+        seen.iter().map(|part| piece.at(middle(part)) * self.factor(part)).sum()
+    }
+
+    fn factor(&mut self, corners: &[DVec3]) -> f64 {
+        self.factors += 1;
+        point_to_polygon(self.gaze.eye.0, self.gaze.eye.1, corners)
+    }
+}
+
+/// How large something looks that has this form factor, and is seen from the front: its size over its distance.
+fn size(factor: f64) -> f64 {
+    2.0 * (PI * factor).sqrt()
+}
+
+fn middle(corners: &[DVec3]) -> DVec3 {
+    corners.iter().sum::<DVec3>() / corners.len() as f64
+}
