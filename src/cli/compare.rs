@@ -12,7 +12,7 @@ use super::compared::table;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
-use super::options::{MethodOptions, SceneOptions, TalkOptions, values};
+use super::options::{MethodOptions, SceneOptions, TalkOptions, TimeOptions, values};
 use super::record::SettingsRecord;
 use super::report::{self, Subject};
 use super::{console, outputs};
@@ -20,8 +20,8 @@ use super::{console, outputs};
 /// Solve a scene on uniform and on adaptive meshes and say which is worth its cost
 ///
 /// Errors are against a reference that no mesh has had a part in: at some 9000 places, direct light exactly and
-/// reflected light by paths, with a standard error. All runs share solver, direct light and threads. Ctrl-C ends
-/// the work and reports the runs that are done.
+/// reflected light by paths, with a standard error. All runs share solver, direct light and threads. Ctrl-C, SIGTERM
+/// and --time-limit end the work and report the runs that are done, with exit code 3; without one, nothing is written.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Compare {
@@ -90,6 +90,9 @@ pub(crate) struct Compare {
     method: MethodOptions,
 
     #[command(flatten)]
+    time: TimeOptions,
+
+    #[command(flatten)]
     talk: TalkOptions,
 }
 
@@ -107,22 +110,27 @@ impl Compare {
         plan.validate()?;
         self.check_outputs()?;
         self.talk.use_threads()?;
-        let interrupt = Interrupt::listen();
+        let interrupt = Interrupt::listen().within(self.time.time_limit);
         let mut meter = Meter::new(&self.talk);
         meter.begin("reading");
         let scene = self.scene.load_lit()?;
         scene.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
+        meter.begin("surfaces");
         let comparison = compare::compare(&scene, &plan, &mut |progress| {
+            if progress.runs > 0 {
+                interrupt.worth_writing();
+            }
             meter.advance(&progress.phase, progress.done);
             interrupt.flow()
-        })?;
+        });
+        let comparison = comparison.map_err(|error| interrupt.blamed(error))?;
         comparison.surfaces.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
         meter.end();
         self.write(&scene, &comparison, &plan)?;
         if !self.talk.quiet {
             console::print(&table(&self.scene.path, &comparison, self.written()))?;
         }
-        Ok(())
+        interrupt.ending()
     }
 
     fn plan(&self) -> Plan {

@@ -15,7 +15,7 @@ use super::enclosure::Enclosure;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
-use super::options::{ReportOptions, SceneOptions, values};
+use super::options::{ReportOptions, SceneOptions, TimeOptions, values};
 use super::outputs;
 
 /// Most bytes that a matrix may take, if all its factors were above zero.
@@ -27,7 +27,8 @@ const FACTOR_BYTES: f64 = 12.0;
 /// Compute the form factors (view factors) between all patches, and from a point
 ///
 /// F[i][j] is the share of the light leaving patch i that arrives at patch j. Faces are not joined: with a
-/// patch size above the scene's, each polygon of the file is one patch. Nothing needs to emit light.
+/// patch size above the scene's, each polygon of the file is one patch. Nothing needs to emit light. Ctrl-C, SIGTERM and
+/// --time-limit end the work early: the rows that are done are written, the others are empty, and the exit code is 3.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct FormFactors {
@@ -64,6 +65,9 @@ pub(crate) struct FormFactors {
     rays: u32,
 
     #[command(flatten)]
+    time: TimeOptions,
+
+    #[command(flatten)]
     report: ReportOptions,
 }
 
@@ -88,7 +92,7 @@ impl FormFactors {
         let (settings, method) = (self.settings()?, self.method()?);
         outputs::check_factors(&self.scene.path, &self.output)?;
         self.report.talk.use_threads()?;
-        let interrupt = Interrupt::listen();
+        let interrupt = Interrupt::listen().within(self.time.time_limit);
         let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
         let scene = self.scene.load()?;
@@ -99,6 +103,7 @@ impl FormFactors {
         tell_memory(&mesh, &meter)?;
         let occluders = Occluders::new(&surfaces);
         let assembled = assemble(&mesh.patches, &occluders, method, |done| {
+            interrupt.worth_writing();
             meter.advance("form factors", done);
             interrupt.flow()
         });
@@ -119,7 +124,7 @@ impl FormFactors {
             (false, true) => (),
             (false, false) => console::print(&enclosure.to_string())?,
         }
-        Ok(())
+        interrupt.ending()
     }
 
     fn settings(&self) -> Result<Settings, Error> {

@@ -98,6 +98,7 @@ impl Lighting<'_> {
             meter.tell("going on from the checkpoint");
         }
         let done = work(&mut checkpoint, &mut |progress| {
+            interrupt.worth_writing();
             meter.follow(progress);
             interrupt.flow()
         });

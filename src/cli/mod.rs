@@ -1,4 +1,4 @@
-//! What the command understands, and how it ends: 0 done, 1 failed, 2 wrong usage.
+//! What the command understands, and how it ends: 0 done, 1 failed, 2 wrong usage, 3 ended early.
 
 mod compare;
 mod compared;
@@ -50,7 +50,9 @@ Examples:
   radiosity form-factors scenes/furnace.obj --patch-size 1 -o F.json
   radiosity info scenes/office.obj
 
-`radiosity help solve` explains every option. Exit codes: 0 done, 1 failed, 2 wrong usage.";
+`radiosity help solve` explains every option.
+Exit codes: 0 done; 1 failed; 2 wrong usage; 3 ended early by Ctrl-C, SIGTERM or a time limit, what there is
+is written and marked as unfinished; 130 ended by a signal before there was anything to write.";
 
 #[derive(Debug, Subcommand)]
 enum Command {

@@ -81,10 +81,11 @@ impl PageOptions {
         steps.push(last_step(account));
         let subject = Subject { mesh: account.mesh, solved: Some(account.solved) };
         let lights = &account.solved.surfaces.lights;
-        let picture = options.picture(View::Light, subject, (account.camera, lights), |done| {
+        let mut picture = options.picture(View::Light, subject, (account.camera, lights), |done| {
             meter.advance("page", done);
             interrupt.flow()
         });
+        picture.unfinished |= !interrupt.is_whole();
         let still = png(&picture, &account.display);
         let title = title(account.scene);
         let viewer = Viewer {

@@ -11,6 +11,7 @@ use radiosity::surface::LightGroup;
 use serde_json::json;
 
 use super::failure::Failure;
+use super::interrupt::Interrupt;
 use super::meter::Meter;
 use super::options::{PictureOptions, ReportOptions};
 use super::record::{cameras, keep_lights, lights};
@@ -61,6 +62,7 @@ impl Relight {
         self.picture.views(&self.image)?;
         self.picture.check_for_file()?;
         self.report.talk.use_threads()?;
+        let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
         let (mut mesh, mut stamp) = export::load_solved(&self.path)?;
@@ -73,6 +75,7 @@ impl Relight {
             }
         }
         keep_lights(&mut stamp.settings, &sky);
+        interrupt.worth_writing();
         let choice = self.picture.choose_camera(&cameras(&stamp.settings))?;
         let (camera, exposure) = self.picture.look(&choice, &mesh, stamp.exposure);
         stamp.exposure = exposure;
@@ -84,7 +87,8 @@ impl Relight {
         }
         if !self.image.is_empty() {
             meter.begin("picture");
-            draw((&mesh, &sky), (&self.picture, &self.image), (&camera, &stamp), &mut meter)?;
+            let pictures = (&self.picture, self.image.as_slice());
+            draw((&mesh, &sky), pictures, (&camera, &stamp), (&interrupt, &mut meter))?;
         }
         let seconds = meter.into_timings();
         let lights = mesh.lights.iter().map(|light| &light.group);
@@ -102,7 +106,7 @@ impl Relight {
                 console::print("lights are not kept apart; solve with --relightable")?;
             }
         }
-        Ok(())
+        interrupt.ending()
     }
 }
 

@@ -1,6 +1,5 @@
 //! `radiosity render`: a picture of a solved GLB, from anywhere.
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -11,6 +10,7 @@ use radiosity::{TriMesh, export};
 use serde_json::json;
 
 use super::failure::Failure;
+use super::interrupt::Interrupt;
 use super::meter::Meter;
 use super::options::{PictureOptions, ReportOptions, display};
 use super::record::{CameraRecord, cameras, lights};
@@ -18,7 +18,8 @@ use super::{console, outputs};
 
 /// Make a picture of a solved GLB, from anywhere
 ///
-/// The light is in the file: nothing is computed again, any view is ready in a moment.
+/// The light is in the file: nothing is computed again, any view is ready in a moment. Ctrl-C and SIGTERM leave edges
+/// unsmoothed; the exit code is 3 then.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Render {
@@ -49,6 +50,7 @@ impl Render {
         self.picture.views(&self.output)?;
         self.picture.check_for_file()?;
         self.report.talk.use_threads()?;
+        let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
         let (mesh, mut stamp) = export::load_solved(&self.path)?;
@@ -60,7 +62,8 @@ impl Render {
         meter.begin("picture");
         let (camera, exposure) = self.picture.look(&choice, &mesh, stamp.exposure);
         stamp.exposure = exposure;
-        draw((&mesh, &lights), (&self.picture, &self.output), (&camera, &stamp), &mut meter)?;
+        let pictures = (&self.picture, self.output.as_slice());
+        draw((&mesh, &lights), pictures, (&camera, &stamp), (&interrupt, &mut meter))?;
         let camera = CameraRecord::from(&camera);
         let seconds = meter.into_timings();
         if self.report.json {
@@ -73,7 +76,7 @@ impl Render {
                 self.output.iter().map(|path| path.display().to_string()).collect();
             console::print(&format!("written: {}", names.join(", ")))?;
         }
-        Ok(())
+        interrupt.ending()
     }
 }
 
@@ -82,17 +85,18 @@ pub(crate) fn draw(
     (mesh, sky): (&TriMesh, &[NamedLight]),
     (options, paths): (&PictureOptions, &[PathBuf]),
     (camera, stamp): (&Camera, &Stamp),
-    meter: &mut Meter,
+    (interrupt, meter): (&Interrupt, &mut Meter),
 ) -> Result<(), Failure> {
+    interrupt.worth_writing();
     meter.explain(&format!("camera {}", CameraRecord::from(camera)));
     let display = display(mesh, stamp.exposure);
     let subject = Subject { mesh, solved: None };
     for (view, paths) in options.views(paths)? {
         let mut picture = options.picture(view, subject, (camera, sky), |done| {
             meter.advance("picture", done);
-            ControlFlow::Continue(())
+            interrupt.flow()
         });
-        picture.unfinished = !stamp.finished;
+        picture.unfinished = !stamp.finished || !interrupt.is_whole();
         for path in paths {
             render::save(&picture, path, &display)?;
         }

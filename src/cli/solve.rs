@@ -34,8 +34,7 @@ use super::{console, outputs};
 ///
 /// Surfaces are diffuse. Light straight from emitters is exact and refines the mesh where shadows
 /// and gradients ask for it; reflected light is exchanged between patches until almost nothing is
-/// left unshot. Ctrl-C and SIGTERM end the work early and still
-/// write everything.
+/// left unshot. Ctrl-C, SIGTERM and --time-limit end the work early and still write everything, with exit code 3.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Solve {
@@ -113,7 +112,7 @@ impl Solve {
         self.accuracy.settings().validate()?;
         self.check()?;
         self.report.talk.use_threads()?;
-        let interrupt = Interrupt::listen().within(self.limits.time());
+        let interrupt = Interrupt::listen().within(self.limits.time.time_limit);
         let mut meter = Meter::new(&self.report.talk);
         self.warn_of_nothing(&meter);
 
@@ -132,8 +131,7 @@ impl Solve {
             stages: &self.page.stages(),
         };
         let Lit { solution, stages, mesh } = lighting.run(&interrupt, &mut meter)?;
-        refuse_darkness(&solution)?;
-        tell_if_full(&solution, &meter);
+        judge(&solution, &meter)?;
 
         let (camera, exposure) = self.picture.look(&camera, &mesh, Exposure::Automatic);
         let stamp = Stamp {
@@ -149,7 +147,7 @@ impl Solve {
             export::save_history(&solution.history, path)?;
         }
         let grid = self.grid.read(&places, solved, &interrupt, &mut meter)?;
-        let summary = Summary::new(&surfaces, &solution, &mesh);
+        let mut summary = Summary::new(&surfaces, &solution, &mesh);
         let account = Account {
             scene: &self.scene.path,
             mesh: &mesh,
@@ -162,6 +160,7 @@ impl Solve {
             notes: &scene.notes,
         };
         self.page.write(&account, &self.picture, &interrupt, &mut meter)?;
+        summary.finished &= interrupt.is_whole();
         self.report_on(&Outcome {
             scene: self.scene.path.clone(),
             summary,
@@ -170,7 +169,8 @@ impl Solve {
             seconds: meter.into_timings(),
             written: self.written().collect(),
             notes: scene.notes,
-        })
+        })?;
+        interrupt.ending()
     }
 
     /// The settings, with as many elements as there is room for; tells what is asked for, and what to expect of it.
@@ -286,10 +286,11 @@ impl Solve {
         let display = display(subject.mesh, exposure);
         let lights = subject.solved.map_or(&[][..], |solved| &solved.surfaces.lights);
         for (view, paths) in self.picture.views(&self.image)? {
-            let picture = self.picture.picture(view, subject, (camera, lights), |done| {
+            let mut picture = self.picture.picture(view, subject, (camera, lights), |done| {
                 meter.advance("picture", done);
                 interrupt.flow()
             });
+            picture.unfinished |= !interrupt.is_whole();
             for path in paths {
                 render::save(&picture, path, &display)?;
             }
@@ -307,10 +308,13 @@ fn surfaces(scene: &mut Scene, meter: &mut Meter) -> Surfaces {
     surfaces
 }
 
-fn tell_if_full(solution: &Solution, meter: &Meter) {
+/// Refuses a solution without light, and tells if it is coarser than was asked for.
+fn judge(solution: &Solution, meter: &Meter) -> Result<(), Error> {
+    refuse_darkness(solution)?;
     if solution.mesh.is_full() {
         meter.tell("note: memory has ended the refinement; --max-memory allows more");
     }
+    Ok(())
 }
 
 /// Of the light that could arrive, a smaller share is rounding: what a sky sends through the edges of a closed room.

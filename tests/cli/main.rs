@@ -80,6 +80,12 @@ impl Outcome {
         self
     }
 
+    /// Asserts that it ended early, and has written what there was.
+    fn unfinished(self) -> Self {
+        assert_eq!(self.code, Some(3), "{self:?}");
+        self
+    }
+
     /// Asserts that it ended with `code` and said all of `words` on stderr.
     fn refused(self, code: i32, words: &[&str]) {
         assert_eq!(self.code, Some(code), "{self:?}");

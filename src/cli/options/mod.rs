@@ -12,7 +12,7 @@ mod view;
 pub(crate) use accuracy::{AccuracyOptions, MethodOptions};
 pub(crate) use checkpoint::CheckpointOptions;
 pub(crate) use lights::HINT;
-pub(crate) use limits::LimitOptions;
+pub(crate) use limits::{LimitOptions, TimeOptions};
 pub(crate) use report::{ReportOptions, TalkOptions};
 pub(crate) use scene::SceneOptions;
 pub(crate) use view::{CameraChoice, PictureOptions, display};
