@@ -4,18 +4,22 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
-use radiosity::Scene;
 use radiosity::compare::{self, Comparison, Effort, Plan, Source};
+use radiosity::{Error, Scene, page};
 use serde_json::{Value, json};
 
 use super::compared::table;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
-use super::options::{MethodOptions, SceneOptions, TalkOptions, TimeOptions, values};
+use super::options::{
+    MethodOptions, SceneOptions, TalkOptions, TimeOptions, WritingOptions, values,
+};
+use super::outputs;
+use super::outputs::Outputs;
 use super::record::SettingsRecord;
 use super::report::{self, Subject};
-use super::{console, outputs};
+use super::streams::Streams;
 
 /// Solve a scene on uniform and on adaptive meshes and say which is worth its cost
 ///
@@ -87,6 +91,9 @@ pub(crate) struct Compare {
     save_reference: Option<PathBuf>,
 
     #[command(flatten)]
+    writing: WritingOptions,
+
+    #[command(flatten)]
     method: MethodOptions,
 
     #[command(flatten)]
@@ -105,15 +112,17 @@ Examples:
   radiosity compare scenes/office.obj --reference office.csv --adaptive 1% --uniform 0.05";
 
 impl Compare {
-    pub(crate) fn run(self) -> Result<(), Failure> {
+    pub(crate) fn run(mut self) -> Result<(), Failure> {
         let plan = self.plan();
         plan.validate()?;
+        let streams = self.divert()?;
         self.check_outputs()?;
         self.talk.use_threads()?;
         let interrupt = Interrupt::listen().within(self.time.time_limit);
         let mut meter = Meter::new(&self.talk);
         meter.begin("reading");
         let scene = self.scene.load_lit()?;
+        self.outputs().check(&scene.files, &[])?;
         scene.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
         meter.begin("surfaces");
         let comparison = compare::compare(&scene, &plan, &mut |progress| {
@@ -127,8 +136,10 @@ impl Compare {
         comparison.surfaces.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
         meter.end();
         self.write(&scene, &comparison, &plan)?;
+        streams.deliver()?;
         if !self.talk.quiet {
-            console::print(&table(&self.scene.path, &comparison, self.written()))?;
+            let written: Vec<PathBuf> = self.written().map(|path| streams.name(path)).collect();
+            streams.print(&table(&self.scene.path, &comparison, &written))?;
         }
         interrupt.ending()
     }
@@ -157,12 +168,28 @@ impl Compare {
     }
 
     fn check_outputs(&self) -> Result<(), Failure> {
-        let inputs = [self.scene.path.as_path(), self.reference.as_path()];
-        outputs::check_compared(&inputs, self.output.as_deref(), &self.figures())?;
+        let mut inputs = self.scene.files();
+        inputs.push(self.reference.clone());
+        self.outputs().check(&inputs, &[])?;
+        self.output.as_deref().map_or(Ok(()), page::check_writable)?;
+        self.figures().into_iter().try_for_each(compare::check_writable)?;
         let csv = [&self.csv, &self.save_reference];
         outputs::check_endings(csv.into_iter().flatten(), ".csv")?;
         outputs::check_endings(&self.json, ".json")?;
         Ok(())
+    }
+
+    /// Puts files in the place of outputs that are none.
+    fn divert(&mut self) -> Result<Streams, Error> {
+        let mut streams = Streams::default();
+        let figures = self.csv.iter_mut().chain(&mut self.json).chain(&mut self.save_reference);
+        streams.divert(self.output.iter_mut().chain(figures), (&self.writing, false))?;
+        Ok(streams)
+    }
+
+    fn outputs(&self) -> Outputs {
+        let files = self.written().map(Path::to_owned).collect();
+        Outputs { files, force: self.writing.force }
     }
 
     /// The files to write.

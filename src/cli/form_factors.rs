@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use glam::DVec3;
-use radiosity::export::{FactorPatch, FactorTable, save_factors};
+use radiosity::export::{FactorPatch, FactorTable, check_writable_factors, save_factors};
 use radiosity::form_factor::{self, Assembled, assemble, factors_at};
 use radiosity::mesh::Mesh;
 use radiosity::visibility::Occluders;
@@ -15,8 +15,9 @@ use super::enclosure::Enclosure;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
-use super::options::{ReportOptions, SceneOptions, TimeOptions, values};
-use super::outputs;
+use super::options::{ReportOptions, SceneOptions, TimeOptions, WritingOptions, values};
+use super::outputs::Outputs;
+use super::streams::Streams;
 
 /// Most bytes that a matrix may take, if all its factors were above zero.
 const MOST_BYTES: f64 = 16e9;
@@ -38,6 +39,9 @@ pub(crate) struct FormFactors {
     /// File to write: .json (patches and matrix), .csv (factors above zero) or .npy (matrix); may be repeated
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
+
+    #[command(flatten)]
+    writing: WritingOptions,
 
     /// How to find what is hidden; where nothing is, all methods use the exact formula
     #[arg(long, value_enum, default_value_t = Method::Contour)]
@@ -88,15 +92,20 @@ enum Method {
 }
 
 impl FormFactors {
-    pub(crate) fn run(self) -> Result<(), Failure> {
+    pub(crate) fn run(mut self) -> Result<(), Failure> {
         let (settings, method) = (self.settings()?, self.method()?);
-        outputs::check_factors(&self.scene.path, &self.output)?;
+        let mut streams = Streams::default();
+        streams.divert(&mut self.output, (&self.writing, self.report.json))?;
+        let outputs = Outputs { files: self.output.clone(), force: self.writing.force };
+        outputs.check(&self.scene.files(), &[])?;
+        self.output.iter().try_for_each(|path| check_writable_factors(path))?;
         self.report.talk.use_threads()?;
         let interrupt = Interrupt::listen().within(self.time.time_limit);
         let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
         let scene = self.scene.load()?;
         scene.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
+        outputs.check(&scene.files, &[])?;
         let surfaces = patches_from(faces_of(&scene), &settings);
         settings.validate_for(surfaces.divided_area(), surfaces.extent)?;
         let mesh = Mesh::new(&surfaces, &settings);
@@ -119,10 +128,11 @@ impl FormFactors {
         }
         self.output.iter().try_for_each(|path| save_factors(&table, path))?;
         meter.end();
+        streams.deliver()?;
         match (self.report.json, self.report.talk.quiet) {
             (true, _) => console::print_json(&enclosure)?,
             (false, true) => (),
-            (false, false) => console::print(&enclosure.to_string())?,
+            (false, false) => streams.print(&enclosure.to_string())?,
         }
         interrupt.ending()
     }

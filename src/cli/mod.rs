@@ -24,6 +24,7 @@ mod relight;
 mod render;
 mod report;
 mod solve;
+mod streams;
 mod summary;
 
 use std::ffi::OsString;

@@ -9,12 +9,14 @@ use radiosity::scene::{Camera, NamedLight};
 use radiosity::{TriMesh, export};
 use serde_json::json;
 
+use super::console;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
-use super::options::{PictureOptions, ReportOptions, display};
+use super::options::{PictureOptions, ReportOptions, WritingOptions, display};
+use super::outputs::Outputs;
 use super::record::{CameraRecord, cameras, lights};
-use super::{console, outputs};
+use super::streams::Streams;
 
 /// Make a picture of a solved GLB, from anywhere
 ///
@@ -32,6 +34,9 @@ pub(crate) struct Render {
     output: Vec<PathBuf>,
 
     #[command(flatten)]
+    writing: WritingOptions,
+
+    #[command(flatten)]
     picture: PictureOptions,
 
     #[command(flatten)]
@@ -45,8 +50,12 @@ Examples:
   radiosity render office.glb -o a.png -o b.png --view light,radiosity --size 1600x900";
 
 impl Render {
-    pub(crate) fn run(self) -> Result<(), Failure> {
-        outputs::check(&self.path, &[], &self.output, &[])?;
+    pub(crate) fn run(mut self) -> Result<(), Failure> {
+        let mut streams = Streams::default();
+        streams.divert(&mut self.output, (&self.writing, self.report.json))?;
+        let outputs = Outputs { files: self.output.clone(), force: self.writing.force };
+        outputs.check(std::slice::from_ref(&self.path), &[])?;
+        self.output.iter().try_for_each(|path| render::check_writable(path))?;
         self.picture.views(&self.output)?;
         self.picture.check_for_file()?;
         self.report.talk.use_threads()?;
@@ -64,17 +73,18 @@ impl Render {
         stamp.exposure = exposure;
         let pictures = (&self.picture, self.output.as_slice());
         draw((&mesh, &lights), pictures, (&camera, &stamp), (&interrupt, &mut meter))?;
+        streams.deliver()?;
         let camera = CameraRecord::from(&camera);
+        let written: Vec<PathBuf> = self.output.iter().map(|path| streams.name(path)).collect();
         let seconds = meter.into_timings();
         if self.report.json {
-            let written = &self.output;
             console::print_json(
                 &json!({ "camera": camera, "written": written, "seconds": seconds }),
             )?;
         } else if !self.report.talk.quiet {
             let names: Vec<String> =
-                self.output.iter().map(|path| path.display().to_string()).collect();
-            console::print(&format!("written: {}", names.join(", ")))?;
+                written.iter().map(|path| path.display().to_string()).collect();
+            streams.print(&format!("written: {}", names.join(", ")))?;
         }
         interrupt.ending()
     }

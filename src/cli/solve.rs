@@ -1,6 +1,6 @@
 //! `radiosity solve`: from a scene to a lit mesh and its picture.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use radiosity::colour::Rgb;
@@ -13,6 +13,7 @@ use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
 use radiosity::{Error, Scene, Settings, Solution, Surfaces, surfaces_of};
 
+use super::console;
 use super::estimate::Estimate;
 use super::failure::Failure;
 use super::grid::GridOptions;
@@ -23,12 +24,13 @@ use super::memory::Needs;
 use super::meter::Meter;
 use super::options::{
     AccuracyOptions, CameraChoice, CheckpointOptions, HINT, LimitOptions, PictureOptions,
-    ReportOptions, SceneOptions, display,
+    ReportOptions, SceneOptions, WritingOptions, display,
 };
+use super::outputs::Outputs;
 use super::page::{Account, PageOptions};
 use super::record::{CameraRecord, SettingsRecord, stamped};
+use super::streams::Streams;
 use super::summary::{Outcome, Summary};
-use super::{console, outputs};
 
 /// Light a scene and write the mesh that carries its light, and pictures of it
 ///
@@ -58,6 +60,9 @@ pub(crate) struct Solve {
     /// share of the emitted power.
     #[arg(long, value_name = "FILE.csv", help_heading = "Writing")]
     history: Option<PathBuf>,
+
+    #[command(flatten)]
+    writing: WritingOptions,
 
     #[command(flatten)]
     relight: RelightOptions,
@@ -108,10 +113,8 @@ Examples:
   radiosity solve scenes/blocker.obj --uniform 0.1 --image uniform.png --eye 1,2,3 --target 0,0,0";
 
 impl Solve {
-    pub(crate) fn run(self) -> Result<(), Failure> {
-        self.accuracy.settings().validate()?;
-        self.check()?;
-        self.report.talk.use_threads()?;
+    pub(crate) fn run(mut self) -> Result<(), Failure> {
+        let streams = self.prepare()?;
         let interrupt = Interrupt::listen().within(self.limits.time.time_limit);
         let mut meter = Meter::new(&self.report.talk);
         self.warn_of_nothing(&meter);
@@ -161,15 +164,17 @@ impl Solve {
         };
         self.page.write(&account, &self.picture, &interrupt, &mut meter)?;
         summary.finished &= interrupt.is_whole();
-        self.report_on(&Outcome {
+        streams.deliver()?;
+        let outcome = Outcome {
             scene: self.scene.path.clone(),
             summary,
             grid,
             settings: settings_record,
             seconds: meter.into_timings(),
-            written: self.written().collect(),
+            written: self.written().map(|path| streams.name(&path)).collect(),
             notes: scene.notes,
-        })?;
+        };
+        self.report_on(&outcome, &streams)?;
         interrupt.ending()
     }
 
@@ -214,18 +219,45 @@ impl Solve {
         for note in &scene.notes {
             meter.tell(&format!("note: {note}"));
         }
+        self.outputs().check(&scene.files, &scene.textures)?;
         Ok((scene, camera))
     }
 
+    /// Whether what is asked for makes sense; files are put in the place of outputs that are none.
+    fn prepare(&mut self) -> Result<Streams, Failure> {
+        self.accuracy.settings().validate()?;
+        let streams = self.divert()?;
+        self.check(&streams)?;
+        self.report.talk.use_threads()?;
+        Ok(streams)
+    }
+
     /// Whether what is asked for can be written.
-    fn check(&self) -> Result<(), Failure> {
-        let tables: Vec<&Path> = self.tables().map(PathBuf::as_path).collect();
-        outputs::check(&self.scene.path, &self.output, &self.image, &tables)?;
-        self.checkpoint.check(&self.scene.path)?;
-        outputs::check_lightmap(&self.scene.path, &self.lightmap, (&self.output, &self.image))?;
+    fn check(&self, streams: &Streams) -> Result<(), Failure> {
+        let inputs: Vec<PathBuf> =
+            self.scene.files().into_iter().chain(self.config.clone()).collect();
+        self.outputs().check(&inputs, &[])?;
+        self.output.iter().try_for_each(|path| export::check_writable(path))?;
+        self.image.iter().try_for_each(|path| render::check_writable(path))?;
+        self.tables().try_for_each(|path| export::check_history(path))?;
+        self.checkpoint.check()?;
+        self.lightmap.check(&self.output, streams)?;
         self.page.check()?;
         self.picture.views(&self.image)?;
         Ok(())
+    }
+
+    fn divert(&mut self) -> Result<Streams, Error> {
+        let mut streams = Streams::default();
+        let tables = self.history.iter_mut().chain(&mut self.grid.grid_csv);
+        let all = self.output.iter_mut().chain(&mut self.image).chain(tables);
+        streams.divert(all.chain(&mut self.page.html), (&self.writing, self.report.json))?;
+        Ok(streams)
+    }
+
+    fn outputs(&self) -> Outputs {
+        let files = self.written().chain(self.checkpoint.checkpoint.clone()).collect();
+        Outputs { files, force: self.writing.force }
     }
 
     fn warn_of_nothing(&self, meter: &Meter) {
@@ -245,11 +277,11 @@ impl Solve {
         self.history.iter().chain(&self.grid.grid_csv)
     }
 
-    fn report_on(&self, outcome: &Outcome) -> Result<(), Failure> {
+    fn report_on(&self, outcome: &Outcome, streams: &Streams) -> Result<(), Failure> {
         match (self.report.json, self.report.talk.quiet) {
             (true, _) => console::print_json(outcome)?,
             (false, true) => (),
-            (false, false) => console::print(&outcome.to_string())?,
+            (false, false) => streams.print(&outcome.to_string())?,
         }
         Ok(())
     }

@@ -27,6 +27,8 @@ mod texture;
 mod up;
 mod weld;
 
+use std::path::PathBuf;
+
 use glam::{DVec2, DVec3, Vec3};
 use smallvec::SmallVec;
 
@@ -65,6 +67,8 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// Repairs and warnings, a line each, for the user to read.
     pub notes: Vec<String>,
+    /// The files that all this was read from, so that nothing is written in their place.
+    pub files: Vec<PathBuf>,
 }
 
 /// A planar polygon; its per-corner lists are empty or as long as `vertices`.

@@ -80,6 +80,12 @@ impl LightOptions {
         !self.area_light.is_empty()
     }
 
+    /// The files that are read.
+    pub(super) fn files(&self) -> impl Iterator<Item = PathBuf> {
+        let luminaires = self.ies.iter().map(|luminaire| &luminaire.file);
+        luminaires.chain(&self.materials).cloned()
+    }
+
     /// Adds to a scene what was asked for.
     pub(super) fn apply(&self, scene: &mut Scene) -> Result<(), Error> {
         if let Some(file) = &self.materials {

@@ -8,6 +8,7 @@ mod report;
 mod scene;
 pub(crate) mod values;
 mod view;
+mod writing;
 
 pub(crate) use accuracy::{AccuracyOptions, MethodOptions};
 pub(crate) use checkpoint::CheckpointOptions;
@@ -16,3 +17,4 @@ pub(crate) use limits::{LimitOptions, TimeOptions};
 pub(crate) use report::{ReportOptions, TalkOptions};
 pub(crate) use scene::SceneOptions;
 pub(crate) use view::{CameraChoice, PictureOptions, display};
+pub(crate) use writing::WritingOptions;
