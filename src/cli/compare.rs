@@ -51,22 +51,20 @@ pub(crate) struct Compare {
     #[arg(long, value_name = "auto|FILE", default_value = "auto", help_heading = "Comparison")]
     reference: PathBuf,
 
-    /// Most time for an automatic reference: 120s, 2min
-    #[arg(long, value_name = "TIME", default_value = "120s", value_parser = values::duration)]
-    #[arg(help_heading = "Comparison")]
-    budget: Duration,
+    /// Most time for an automatic reference: 90s, 2min (default: 120s)
+    #[arg(long, value_name = "TIME", value_parser = values::duration, help_heading = "Comparison")]
+    budget: Option<Duration>,
 
-    /// An automatic reference with so small a standard error is good enough: 0.002 or 0.2%
+    /// An automatic reference with so small a standard error is good enough: 0.002 or 0.2% (the default)
     ///
     /// Of the mean radiosity, root mean square. Reached before the budget, results are the same each time.
-    #[arg(long, value_name = "SHARE", default_value = "0.2%", value_parser = values::share)]
-    #[arg(help_heading = "Comparison")]
-    noise: f64,
+    #[arg(long, value_name = "SHARE", value_parser = values::share, help_heading = "Comparison")]
+    noise: Option<f64>,
 
-    /// Places of an automatic reference on all surfaces; half as many more along the edges of shadows
-    #[arg(long, value_name = "N", default_value_t = 6000, help_heading = "Comparison")]
+    /// Places of an automatic reference on all surfaces (default: 6000); half as many more along the edges of shadows
+    #[arg(long, value_name = "N", help_heading = "Comparison")]
     #[arg(value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
-    places: u32,
+    places: Option<u32>,
 
     /// Compare costs at this error, as a share of the mean (default: the smallest that both reach)
     #[arg(long, value_name = "SHARE", value_parser = values::share, help_heading = "Comparison")]
@@ -113,7 +111,7 @@ Examples:
 
 impl Compare {
     pub(crate) fn run(mut self) -> Result<(), Failure> {
-        let plan = self.plan();
+        let plan = self.plan()?;
         plan.validate()?;
         let streams = self.divert()?;
         self.check_outputs()?;
@@ -144,26 +142,36 @@ impl Compare {
         interrupt.ending()
     }
 
-    fn plan(&self) -> Plan {
-        let effort = Effort {
-            area_points: self.places as usize,
-            shadow_points: self.places as usize / 2,
-            budget: self.budget,
-            noise: self.noise,
-            ..Effort::default()
-        };
+    fn plan(&self) -> Result<Plan, Error> {
+        let effort = self.effort();
         let reference = if self.reference == Path::new("auto") {
             Source::Traced(effort)
-        } else {
+        } else if effort == Effort::default() {
             Source::File(self.reference.clone())
+        } else {
+            let message =
+                "a file needs no --budget, --noise or --places; leave them out".to_owned();
+            return Err(Error::Setting { name: "reference", message });
         };
-        Plan {
+        Ok(Plan {
             settings: self.method.settings(),
             uniform: self.uniform.clone(),
             adaptive: self.adaptive.clone(),
             reference,
             error: self.error,
             ..Plan::default()
+        })
+    }
+
+    /// What an automatic reference may cost.
+    fn effort(&self) -> Effort {
+        let usual = Effort::default();
+        Effort {
+            area_points: self.places.map_or(usual.area_points, |places| places as usize),
+            shadow_points: self.places.map_or(usual.shadow_points, |places| places as usize / 2),
+            budget: self.budget.unwrap_or(usual.budget),
+            noise: self.noise.unwrap_or(usual.noise),
+            ..usual
         }
     }
 

@@ -25,6 +25,12 @@ const MOST_BYTES: f64 = 16e9;
 /// Bytes of a factor: 64 bits of value, 32 of column.
 const FACTOR_BYTES: f64 = 12.0;
 
+/// Cells along a hemicube's edge if nothing is said of it.
+const CELLS: u32 = 256;
+
+/// Rays from each point if nothing is said of them.
+const RAYS: u32 = 65_536;
+
 /// Compute the form factors (view factors) between all patches, and from a point
 ///
 /// F[i][j] is the share of the light leaving patch i that arrives at patch j. Faces are not joined: with a
@@ -51,22 +57,22 @@ pub(crate) struct FormFactors {
     #[arg(long, value_name = "METRES", value_parser = values::number)]
     patch_size: Option<f64>,
 
-    /// Form factors from this point and normal, too: x,y,z,nx,ny,nz
+    /// Form factors from this point and normal, too, in a .json or .csv: x,y,z,nx,ny,nz
     #[arg(long, value_name = "X,Y,Z,NX,NY,NZ", value_parser = values::place)]
-    #[arg(allow_hyphen_values = true)]
+    #[arg(allow_hyphen_values = true, requires = "output")]
     at: Option<(DVec3, DVec3)>,
 
     /// Make the matrix reciprocal and, in a closed scene, its rows sum to one, to within 1e-12
     #[arg(long)]
     enforce: bool,
 
-    /// Cells along a hemicube's edge: even, 32 to 1024
-    #[arg(long, value_name = "CELLS", default_value_t = 256)]
-    hemicube_resolution: u32,
+    /// Cells along a hemicube's edge, with --method hemicube: even, 32 to 1024 (default: 256)
+    #[arg(long, value_name = "CELLS")]
+    hemicube_resolution: Option<u32>,
 
-    /// Rays from each point (64 to 16777216)
-    #[arg(long, value_name = "N", default_value_t = 65_536)]
-    rays: u32,
+    /// Rays from each point, with --method rays: 64 to 16777216 (default: 65536)
+    #[arg(long, value_name = "N")]
+    rays: Option<u32>,
 
     #[command(flatten)]
     time: TimeOptions,
@@ -93,9 +99,9 @@ enum Method {
 
 impl FormFactors {
     pub(crate) fn run(mut self) -> Result<(), Failure> {
-        let (settings, method) = (self.settings()?, self.method()?);
         let mut streams = Streams::default();
         streams.divert(&mut self.output, (&self.writing, self.report.json))?;
+        let (settings, method) = (self.settings()?, self.method()?);
         let outputs = Outputs { files: self.output.clone(), force: self.writing.force };
         outputs.check(&self.scene.files(), &[])?;
         self.output.iter().try_for_each(|path| check_writable_factors(path))?;
@@ -141,7 +147,7 @@ impl FormFactors {
         let settings = Settings::medium();
         let settings = Settings {
             patch_size: self.patch_size.map_or(settings.patch_size, Length::Metres),
-            hemicube_resolution: self.hemicube_resolution,
+            hemicube_resolution: self.cells(),
             ..settings
         };
         settings.validate()?;
@@ -149,15 +155,32 @@ impl FormFactors {
     }
 
     fn method(&self) -> Result<form_factor::Method, Error> {
-        if !(64..=1 << 24).contains(&self.rays) {
-            let message = format!("{} is out of range; use 64 to {}", self.rays, 1 << 24);
-            return Err(Error::Setting { name: "rays", message });
+        let refused = |name, message: String| Err(Error::Setting { name, message });
+        if self.rays.is_some() && !matches!(self.method, Method::Rays) {
+            return refused("rays", "are those of --method rays; say that, too".to_owned());
+        }
+        if self.hemicube_resolution.is_some() && !matches!(self.method, Method::Hemicube) {
+            let message = "is that of --method hemicube; say that, too".to_owned();
+            return refused("hemicube-resolution", message);
+        }
+        let rays = self.rays.unwrap_or(RAYS);
+        if !(64..=1 << 24).contains(&rays) {
+            return refused("rays", format!("{rays} is out of range; use 64 to {}", 1 << 24));
+        }
+        let is_matrix = |path: &PathBuf| path.extension().is_some_and(|end| end == "npy");
+        if self.at.is_some() && self.output.iter().all(is_matrix) {
+            let message = "has no place in a .npy; write a .json or .csv, too".to_owned();
+            return refused("at", message);
         }
         Ok(match self.method {
-            Method::Hemicube => form_factor::Method::Hemicube(self.hemicube_resolution),
+            Method::Hemicube => form_factor::Method::Hemicube(self.cells()),
             Method::Contour => form_factor::Method::Contour,
-            Method::Rays => form_factor::Method::Rays(self.rays),
+            Method::Rays => form_factor::Method::Rays(rays),
         })
+    }
+
+    fn cells(&self) -> u32 {
+        self.hemicube_resolution.unwrap_or(CELLS)
     }
 }
 

@@ -76,6 +76,13 @@ impl PageOptions {
             return Ok(());
         };
         meter.begin("page");
+        let missing = self.stages().len() - account.stages.len();
+        if missing > 0 {
+            let shots = 1 + account.solved.solution.reflected_shots();
+            meter.tell(&format!(
+                "note: {missing} of the snapshots are left out: all was done after {shots} shots"
+            ));
+        }
         let mut steps: Vec<Step> =
             account.stages.iter().map(|stage| early_step(&account.solved, stage)).collect();
         steps.push(last_step(account));

@@ -7,14 +7,14 @@ use radiosity::colour::Rgb;
 use radiosity::reconstruct::{Dimming, LightShare};
 use radiosity::scene::NamedLight;
 use radiosity::surface::LightGroup;
-use radiosity::{export, render};
+use radiosity::{Error, export, render};
 use serde_json::json;
 
 use super::console;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
-use super::options::{PictureOptions, ReportOptions, WritingOptions};
+use super::options::{Elsewhere, PictureOptions, ReportOptions, WritingOptions};
 use super::outputs::Outputs;
 use super::record::{cameras, keep_lights, lights};
 use super::render::draw;
@@ -63,16 +63,9 @@ Examples:
 
 impl Relight {
     pub(crate) fn run(mut self) -> Result<(), Failure> {
-        let mut streams = Streams::default();
-        let all = self.output.iter_mut().chain(&mut self.image);
-        streams.divert(all, (&self.writing, self.report.json))?;
-        let files = self.output.iter().chain(&self.image).cloned().collect();
-        let outputs = Outputs { files, force: self.writing.force };
-        outputs.check(std::slice::from_ref(&self.path), &[])?;
-        self.output.iter().try_for_each(|path| export::check_writable(path))?;
-        self.image.iter().try_for_each(|path| render::check_writable(path))?;
-        self.picture.views(&self.image)?;
-        self.picture.check_for_file()?;
+        let streams = self.divert()?;
+        let outputs = self.outputs();
+        self.check(&outputs)?;
         self.report.talk.use_threads()?;
         let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.report.talk);
@@ -122,6 +115,31 @@ impl Relight {
             }
         }
         interrupt.ending()
+    }
+
+    /// Puts files in the place of outputs that are none.
+    fn divert(&mut self) -> Result<Streams, Error> {
+        let mut streams = Streams::default();
+        let all = self.output.iter_mut().chain(&mut self.image);
+        streams.divert(all, (&self.writing, self.report.json))?;
+        Ok(streams)
+    }
+
+    fn outputs(&self) -> Outputs {
+        let files = self.output.iter().chain(&self.image).cloned().collect();
+        Outputs { files, force: self.writing.force }
+    }
+
+    /// Whether what is asked for can be written, and makes sense.
+    fn check(&self, outputs: &Outputs) -> Result<(), Error> {
+        outputs.check(std::slice::from_ref(&self.path), &[])?;
+        self.output.iter().try_for_each(|path| export::check_writable(path))?;
+        self.image.iter().try_for_each(|path| render::check_writable(path))?;
+        self.picture.views(&self.image)?;
+        let has_mesh = !self.output.is_empty();
+        let elsewhere = if has_mesh { Elsewhere::Colours } else { Elsewhere::Nothing };
+        self.picture.check_use(&self.image, elsewhere)?;
+        self.picture.check_for_file()
     }
 }
 

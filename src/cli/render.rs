@@ -13,7 +13,7 @@ use super::console;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
-use super::options::{PictureOptions, ReportOptions, WritingOptions, display};
+use super::options::{Elsewhere, PictureOptions, ReportOptions, WritingOptions, display};
 use super::outputs::Outputs;
 use super::record::{CameraRecord, cameras, lights};
 use super::streams::Streams;
@@ -57,6 +57,7 @@ impl Render {
         outputs.check(std::slice::from_ref(&self.path), &[])?;
         self.output.iter().try_for_each(|path| render::check_writable(path))?;
         self.picture.views(&self.output)?;
+        self.picture.check_use(&self.output, Elsewhere::Nothing)?;
         self.picture.check_for_file()?;
         self.report.talk.use_threads()?;
         let interrupt = Interrupt::listen();

@@ -23,8 +23,8 @@ use super::lightmap::LightmapOptions;
 use super::memory::Needs;
 use super::meter::Meter;
 use super::options::{
-    AccuracyOptions, CameraChoice, CheckpointOptions, HINT, LimitOptions, PictureOptions,
-    ReportOptions, SceneOptions, WritingOptions, display,
+    AccuracyOptions, CameraChoice, CheckpointOptions, Elsewhere, HINT, LimitOptions,
+    PictureOptions, ReportOptions, SceneOptions, WritingOptions, display,
 };
 use super::outputs::Outputs;
 use super::page::{Account, PageOptions};
@@ -243,8 +243,14 @@ impl Solve {
         self.checkpoint.check()?;
         self.lightmap.check(&self.output, streams)?;
         self.page.check()?;
+        self.relight.check(&self.output)?;
         self.picture.views(&self.image)?;
-        Ok(())
+        let elsewhere = match (&self.page.html, self.output.is_empty()) {
+            (Some(_), _) => Elsewhere::Picture,
+            (None, false) => Elsewhere::Colours,
+            (None, true) => Elsewhere::Nothing,
+        };
+        Ok(self.picture.check_use(&self.image, elsewhere)?)
     }
 
     fn divert(&mut self) -> Result<Streams, Error> {

@@ -30,9 +30,89 @@ fn wrong_usage_ends_with_two() {
     solve(&["--omega", "2"]).refused(2, &["omega", "less than 2"]);
     solve(&["--uniform", "1e-7"]).refused(2, &["uniform", "pieces"]);
     solve(&["--eye", "-1,2,3"]).refused(2, &["--target"]);
-    solve(&["--eye", "-1,2,3", "--target", "-1,2,3"]).refused(2, &["same point"]);
-    solve(&["--camera", "balcony"]).refused(2, &["balcony", "--eye"]);
+    let same = ["--eye", "-1,2,3", "--target", "-1,2,3", "--image", "a.png"];
+    solve(&same).refused(2, &["same point"]);
+    solve(&["--camera", "balcony", "--image", "a.png"]).refused(2, &["balcony", "--eye"]);
     solve(&["--threads", "0"]).refused(2, &["threads"]);
+}
+
+/// What a user asks for is done, or refused with a word; never dropped.
+#[test]
+fn options_that_would_do_nothing_are_refused() {
+    let place = Place::new();
+    let scenes = ["cornell-box.obj", "cornell-box.glb"].map(scene);
+    let [obj, glb] = scenes.each_ref().map(String::as_str);
+    place.write("reference.csv", "");
+    for (arguments, words) in [
+        (&["solve", obj, "--relightable", "-o", "a.obj"][..], &["relightable", "-o FILE.glb"][..]),
+        (&["solve", obj, "--relightable", "--image", "a.png"], &["relightable", "GLB"]),
+        (&["solve", obj, "-o", "a.glb", "--size", "20x20"], &["size", "no picture"]),
+        (&["solve", obj, "-o", "a.glb", "--view", "error"], &["view", "no picture"]),
+        (&["solve", obj, "--html", "a.html", "--view", "error"], &["view", "no picture"]),
+        (&["solve", obj, "-o", "a.glb", "--final-gather"], &["final-gather", "no picture"]),
+        (&["solve", obj, "--history", "a.csv", "--fov", "40"], &["camera", "picture"]),
+        (&["solve", obj, "--history", "a.csv", "--exposure", "4"], &["camera", "picture"]),
+        (&["solve", obj, "--image", "a.exr", "--exposure", "4"], &["exposure", ".exr"]),
+        (
+            &["solve", obj, "--image", "a.png", "--view", "level", "--final-gather"],
+            &["final-gather", "direct light"],
+        ),
+        (&["solve", obj, "--uniform", "0.1", "--max-level", "3"], &["--uniform", "--max-level"]),
+        (&["solve", obj, "--uniform", "0.1", "--no-discontinuity-lines"], &["--uniform"]),
+        (&["solve", obj, "-o", "a.glb", "--format", "glb"], &["format", "pipes"]),
+        (&["solve", obj, "--resume"], &["--checkpoint"]),
+        (&["solve", glb, "--units", "cm"], &["units", "metres by definition"]),
+        (&["solve", obj, "--emit", "white=1e300"], &["more than"]),
+        (&["solve", obj, "--emit", "white=1e300lm"], &["more than"]),
+        (&["solve", obj, "--area-light", "0,0,0=1x1=1e200"], &["more than"]),
+        (
+            &["form-factors", obj, "--method", "hemicube", "--rays", "99"],
+            &["rays", "--method rays"],
+        ),
+        (
+            &["form-factors", obj, "--hemicube-resolution", "64"],
+            &["hemicube-resolution", "--method hemicube"],
+        ),
+        (&["form-factors", obj, "--at", "0,0,0,0,1,0"], &["--output"]),
+        (&["form-factors", obj, "--at", "0,0,0,0,1,0", "-o", "a.npy"], &["at", ".npy"]),
+        (
+            &["compare", obj, "--reference", "reference.csv", "--budget", "9s"],
+            &["reference", "--budget"],
+        ),
+        (&["compare", obj, "--reference", "reference.csv", "--places", "900"], &["--places"]),
+    ] {
+        place.run(arguments).refused(2, words);
+    }
+    place.solve(&["--relightable", "-o", "lights.glb"]).done();
+    let relight = |more: &[&str]| place.run(&[&["relight", "lights.glb"], more].concat());
+    relight(&["-o", "b.glb", "--size", "20x20"]).refused(2, &["size", "no picture"]);
+    relight(&["--light", "light=1e300", "-o", "b.glb"]).refused(2, &["brighter than anything"]);
+}
+
+#[test]
+fn snapshots_that_are_never_reached_are_told() {
+    let place = Place::new();
+    let outcome = place.solve(&["--html", "a.html", "--snapshots", "1,2,99999999"]).done();
+    assert!(outcome.stderr.contains("1 of the snapshots"), "{}", outcome.stderr);
+}
+
+/// A lamp that shines up, over a floor that it does not reach.
+#[test]
+fn a_grid_in_darkness_has_no_uniformity() {
+    let place = Place::new();
+    place.write(
+        "dark.obj",
+        "mtllib dark.mtl\nusemtl floor\nv 0 0 0\nv 2 0 0\nv 2 0 2\nv 0 0 2\nf 4 3 2 1\n\
+         usemtl lamp\nv 4 2 0\nv 5 2 0\nv 5 2 1\nv 4 2 1\nf 8 7 6 5\n\
+         usemtl floor\nv 4 3 0\nv 5 3 0\nv 5 3 1\nv 4 3 1\nf 9 10 11 12\n",
+    );
+    place.write("dark.mtl", "newmtl floor\nKd 0 0 0\nnewmtl lamp\nKd 0 0 0\nKe 5 5 5\n");
+    let solve = ["solve", "dark.obj", "--two-sided", "off", "--grid", "0.5,0.5"];
+    let told = place.run(&solve).done();
+    assert!(told.stdout.contains("in darkness, without a U0"), "{}", told.stdout);
+    let json = place.run(&[&solve[..], &["--json"]].concat()).done().json();
+    assert_eq!(json["grid"]["mean"], 0.0);
+    assert!(json["grid"]["uniformity"].is_null(), "{json}");
 }
 
 #[test]

@@ -16,5 +16,5 @@ pub(crate) use lights::HINT;
 pub(crate) use limits::{LimitOptions, TimeOptions};
 pub(crate) use report::{ReportOptions, TalkOptions};
 pub(crate) use scene::SceneOptions;
-pub(crate) use view::{CameraChoice, PictureOptions, display};
+pub(crate) use view::{CameraChoice, Elsewhere, PictureOptions, display};
 pub(crate) use writing::WritingOptions;
