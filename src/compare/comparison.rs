@@ -67,6 +67,7 @@ pub fn compare(
     let start = Instant::now();
     let surfaces = surfaces_of(scene);
     let seconds = start.elapsed().as_secs_f64();
+    surfaces.check()?;
     plan.validate()?;
     plan.validate_for(&surfaces)?;
     let mut observer = Observer { observe, flow: ControlFlow::Continue(()), runs: 0 };

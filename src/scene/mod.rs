@@ -5,6 +5,7 @@
 
 mod adding;
 pub(crate) mod boxes;
+mod build;
 mod camera;
 mod corners;
 mod daylight;
@@ -49,6 +50,9 @@ pub(crate) use texture::decode;
 pub use up::Up;
 
 /// A scene of polygons, in metres.
+///
+/// One that is made in code is checked by [`Scene::build`]; what is not, and cannot be looked at, has no surfaces, and
+/// lighting it is an error that says why.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// Corners of the faces, m.
@@ -91,7 +95,7 @@ pub struct Face {
 impl Face {
     /// Where its corners are, m.
     pub(crate) fn corners(&self, positions: &[DVec3]) -> SmallVec<[DVec3; 4]> {
-        self.vertices.iter().map(|&vertex| positions[vertex as usize]).collect()
+        self.vertices.iter().filter_map(|&vertex| positions.get(vertex as usize)).copied().collect()
     }
 }
 
@@ -124,8 +128,8 @@ impl Scene {
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let corners = self.faces.iter().flat_map(|face| &face.vertices);
         corners
-            .map(|&vertex| self.positions[vertex as usize])
-            .map(|p| (p, p))
+            .filter_map(|&vertex| self.positions.get(vertex as usize))
+            .map(|&p| (p, p))
             .reduce(|(low, high), (p, _)| (low.min(p), high.max(p)))
     }
 
@@ -144,8 +148,8 @@ impl Scene {
     /// Indices of the faces whose material emits light.
     pub fn emitters(&self) -> impl Iterator<Item = usize> {
         self.faces.iter().enumerate().filter_map(|(index, face)| {
-            let emission = self.materials[face.material as usize].emission;
-            (emission.max_element() > 0.0).then_some(index)
+            let material = self.materials.get(face.material as usize)?;
+            (material.emission.max_element() > 0.0).then_some(index)
         })
     }
 

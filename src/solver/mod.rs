@@ -176,6 +176,7 @@ pub fn solve_with(
     plan: Plan<'_>,
     mut observe: impl FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<(Solution, Vec<Solution>)> {
+    surfaces.check()?;
     settings.validate()?;
     settings.validate_for(surfaces.divided_area(), surfaces.extent)?;
     let mut nowhere = Checkpoint::default();
