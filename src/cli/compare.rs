@@ -9,11 +9,12 @@ use radiosity::{Error, Scene, page};
 use serde_json::{Value, json};
 
 use super::compared::table;
+use super::console;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
 use super::options::{
-    MethodOptions, SceneOptions, TalkOptions, TimeOptions, WritingOptions, values,
+    MethodOptions, ReportOptions, SceneOptions, TimeOptions, WritingOptions, values,
 };
 use super::outputs;
 use super::outputs::Outputs;
@@ -80,9 +81,9 @@ pub(crate) struct Compare {
     #[arg(long, value_name = "FILE.csv", help_heading = "Writing")]
     csv: Option<PathBuf>,
 
-    /// All figures to write: settings, runs, verdict, profile across a shadow's edge
+    /// All figures to write, as --json prints them: settings, runs, verdict, profile across a shadow's edge
     #[arg(long, value_name = "FILE.json", help_heading = "Writing")]
-    json: Option<PathBuf>,
+    figures: Option<PathBuf>,
 
     /// The reference to write, so that it can be used again with --reference
     #[arg(long, value_name = "FILE.csv", help_heading = "Writing")]
@@ -98,7 +99,7 @@ pub(crate) struct Compare {
     time: TimeOptions,
 
     #[command(flatten)]
-    talk: TalkOptions,
+    report: ReportOptions,
 }
 
 const EXAMPLES: &str = "\
@@ -106,7 +107,7 @@ Examples:
   radiosity compare scenes/cornell-box.obj -o report.html
   radiosity compare scenes/two-rooms.obj --csv runs.csv
   radiosity compare scenes/blocker.obj --uniform 0.4,0.2,0.1 --adaptive 10%,5%,2% --budget 2min
-  radiosity compare scenes/office.obj --quality draft --save-reference office.csv --json office.json
+  radiosity compare scenes/office.obj --quality draft --save-reference office.csv --figures office.json
   radiosity compare scenes/office.obj --reference office.csv --adaptive 1% --uniform 0.05";
 
 impl Compare {
@@ -115,9 +116,9 @@ impl Compare {
         plan.validate()?;
         let streams = self.divert()?;
         self.check_outputs()?;
-        self.talk.use_threads()?;
+        self.report.talk.use_threads()?;
         let interrupt = Interrupt::listen().within(self.time.time_limit);
-        let mut meter = Meter::new(&self.talk);
+        let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
         let scene = self.scene.load_lit()?;
         self.outputs().check(&scene.files, &[])?;
@@ -133,10 +134,17 @@ impl Compare {
         let comparison = comparison.map_err(|error| interrupt.blamed(error))?;
         comparison.surfaces.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
         meter.end();
-        self.write(&scene, &comparison, &plan)?;
+        let settings = SettingsRecord::new(&plan.settings, comparison.surfaces.extent);
+        self.write(&scene, &comparison, &settings)?;
         streams.deliver()?;
-        if !self.talk.quiet {
-            let written: Vec<PathBuf> = self.written().map(|path| streams.name(path)).collect();
+        let written: Vec<PathBuf> = self.written().map(|path| streams.name(path)).collect();
+        if self.report.json {
+            let mut figures = compare::figures(&comparison, &self.about(&settings));
+            figures["finished"] = json!(interrupt.is_whole());
+            figures["written"] = json!(written);
+            figures["seconds"] = json!(meter.into_timings());
+            console::print_json(&figures)?;
+        } else if !self.report.talk.quiet {
             streams.print(&table(&self.scene.path, &comparison, &written))?;
         }
         interrupt.ending()
@@ -180,18 +188,18 @@ impl Compare {
         inputs.push(self.reference.clone());
         self.outputs().check(&inputs, &[])?;
         self.output.as_deref().map_or(Ok(()), page::check_writable)?;
-        self.figures().into_iter().try_for_each(compare::check_writable)?;
+        self.tables().into_iter().try_for_each(compare::check_writable)?;
         let csv = [&self.csv, &self.save_reference];
         outputs::check_endings(csv.into_iter().flatten(), ".csv")?;
-        outputs::check_endings(&self.json, ".json")?;
+        outputs::check_endings(&self.figures, ".json")?;
         Ok(())
     }
 
     /// Puts files in the place of outputs that are none.
     fn divert(&mut self) -> Result<Streams, Error> {
         let mut streams = Streams::default();
-        let figures = self.csv.iter_mut().chain(&mut self.json).chain(&mut self.save_reference);
-        streams.divert(self.output.iter_mut().chain(figures), (&self.writing, false))?;
+        let tables = self.csv.iter_mut().chain(&mut self.figures).chain(&mut self.save_reference);
+        streams.divert(self.output.iter_mut().chain(tables), (&self.writing, self.report.json))?;
         Ok(streams)
     }
 
@@ -202,23 +210,27 @@ impl Compare {
 
     /// The files to write.
     fn written(&self) -> impl Iterator<Item = &Path> {
-        self.output.as_deref().into_iter().chain(self.figures())
+        self.output.as_deref().into_iter().chain(self.tables())
     }
 
-    fn figures(&self) -> Vec<&Path> {
-        let files = [&self.csv, &self.json, &self.save_reference];
+    fn tables(&self) -> Vec<&Path> {
+        let files = [&self.csv, &self.figures, &self.save_reference];
         files.into_iter().flatten().map(PathBuf::as_path).collect()
     }
 
-    fn write(&self, scene: &Scene, comparison: &Comparison, plan: &Plan) -> Result<(), Failure> {
-        let settings = SettingsRecord::new(&plan.settings, comparison.surfaces.extent);
-        let about = self.about(&settings);
+    fn write(
+        &self,
+        scene: &Scene,
+        comparison: &Comparison,
+        settings: &SettingsRecord,
+    ) -> Result<(), Failure> {
+        let about = self.about(settings);
         if let Some(output) = &self.output {
             let path = &self.scene.path;
-            let subject = Subject { path, scene, comparison, settings: &settings, about: &about };
+            let subject = Subject { path, scene, comparison, settings, about: &about };
             report::write(&subject, output)?;
         }
-        for path in [&self.csv, &self.json].into_iter().flatten() {
+        for path in [&self.csv, &self.figures].into_iter().flatten() {
             compare::save(comparison, &about, path)?;
         }
         if let Some(path) = &self.save_reference {

@@ -9,12 +9,13 @@ use radiosity::form_factor::{self, Assembled, assemble, factors_at};
 use radiosity::mesh::Mesh;
 use radiosity::visibility::Occluders;
 use radiosity::{Error, Length, Settings, Surfaces, faces_of};
+use serde::Serialize;
 
 use super::console;
 use super::enclosure::Enclosure;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
-use super::meter::Meter;
+use super::meter::{Meter, Timing};
 use super::options::{ReportOptions, SceneOptions, TimeOptions, WritingOptions, values};
 use super::outputs::Outputs;
 use super::streams::Streams;
@@ -136,7 +137,14 @@ impl FormFactors {
         meter.end();
         streams.deliver()?;
         match (self.report.json, self.report.talk.quiet) {
-            (true, _) => console::print_json(&enclosure)?,
+            (true, _) => console::print_json(&Outcome {
+                finished: interrupt.is_whole(),
+                scene: self.scene.path,
+                enclosure: &enclosure,
+                written: self.output.iter().map(|path| streams.name(path)).collect(),
+                seconds: meter.into_timings(),
+                notes: scene.notes,
+            })?,
             (false, true) => (),
             (false, false) => streams.print(&enclosure.to_string())?,
         }
@@ -182,6 +190,18 @@ impl FormFactors {
     fn cells(&self) -> u32 {
         self.hemicube_resolution.unwrap_or(CELLS)
     }
+}
+
+/// A matrix in figures, with what the command knows beside it.
+#[derive(Debug, Serialize)]
+struct Outcome<'a> {
+    finished: bool,
+    scene: PathBuf,
+    #[serde(flatten)]
+    enclosure: &'a Enclosure,
+    written: Vec<PathBuf>,
+    seconds: Vec<Timing>,
+    notes: Vec<String>,
 }
 
 /// Without contact lines if patches may be as large as the scene: then polygons stay whole.

@@ -103,9 +103,12 @@ impl Relight {
             let written: Vec<PathBuf> =
                 outputs.files.iter().map(|path| streams.name(path)).collect();
             let lights: Vec<_> = lights.collect();
-            console::print_json(
-                &json!({ "lights": lights, "written": written, "seconds": seconds }),
-            )?;
+            console::print_json(&json!({
+                "finished": stamp.finished && interrupt.is_whole(),
+                "lights": lights,
+                "written": written,
+                "seconds": seconds,
+            }))?;
         } else if !self.report.talk.quiet {
             for light in lights {
                 streams.print(&format!("light \"{}\": {light}", light.name))?;

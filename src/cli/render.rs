@@ -79,9 +79,12 @@ impl Render {
         let written: Vec<PathBuf> = self.output.iter().map(|path| streams.name(path)).collect();
         let seconds = meter.into_timings();
         if self.report.json {
-            console::print_json(
-                &json!({ "camera": camera, "written": written, "seconds": seconds }),
-            )?;
+            console::print_json(&json!({
+                "finished": stamp.finished && interrupt.is_whole(),
+                "camera": camera,
+                "written": written,
+                "seconds": seconds,
+            }))?;
         } else if !self.report.talk.quiet {
             let names: Vec<String> =
                 written.iter().map(|path| path.display().to_string()).collect();

@@ -164,9 +164,9 @@ impl Solve {
         };
         self.page.write(&account, &self.picture, &interrupt, &mut meter)?;
         summary.finished &= interrupt.is_whole();
-        streams.deliver()?;
         let outcome = Outcome {
             scene: self.scene.path.clone(),
+            photometric: self.scene.is_photometric(),
             summary,
             grid,
             settings: settings_record,
@@ -283,7 +283,9 @@ impl Solve {
         self.history.iter().chain(&self.grid.grid_csv)
     }
 
+    /// Sends on what goes elsewhere than into files, and tells what came of it all.
     fn report_on(&self, outcome: &Outcome, streams: &Streams) -> Result<(), Failure> {
+        streams.deliver()?;
         match (self.report.json, self.report.talk.quiet) {
             (true, _) => console::print_json(outcome)?,
             (false, true) => (),

@@ -83,7 +83,7 @@ fn a_comparison_ended_early_reports_the_runs_that_are_done() {
     let place = Place::new();
     let scene = scene("cornell-box.obj");
     let coarse = ["--places", "200", "--noise", "50%", "--adaptive", "50%,0.1%", "--stop", "5%"];
-    let written = ["--json", "runs.json", "-o", "report.html"];
+    let written = ["--figures", "runs.json", "-o", "report.html"];
     let compare = [&["compare", scene.as_str()][..], &coarse, &written].concat();
     let outcome = signalled(&place, &compare, "-TERM", "adaptive 0.5").unfinished();
     assert!(outcome.stdout.contains("interrupted: not all"), "{}", outcome.stdout);

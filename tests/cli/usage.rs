@@ -116,6 +116,94 @@ fn a_grid_in_darkness_has_no_uniformity() {
 }
 
 #[test]
+fn a_number_below_zero_is_judged_by_its_option() {
+    let place = Place::new();
+    let scene = scene("cornell-box.obj");
+    let solve = |more: &[&str]| place.run(&[&["solve", scene.as_str()], more].concat());
+    solve(&["--patch-size", "-1"]).refused(2, &["patch-size", "-1 is no length", "above 0"]);
+    solve(&["--uniform", "-0.5"]).refused(2, &["uniform", "-0.5 is no length"]);
+    solve(&["--tolerance", "-1"]).refused(2, &["tolerance", "0.001 to 1"]);
+    solve(&["--fov", "-30", "--image", "a.png"]).refused(2, &["1 to 170"]);
+    place.run(&["form-factors", &scene, "--patch-size", "-1"]).refused(2, &["above 0"]);
+}
+
+#[test]
+fn shells_and_man_learn_of_every_option() {
+    let place = Place::new();
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = place.run(&["generate", "completions", shell]).done().stdout;
+        for word in ["relight", "patch-size", "checkpoint"] {
+            assert!(script.contains(word), "{shell} does not know {word}");
+        }
+    }
+    place.run(&["generate", "man", "deep"]).done();
+    let read = |name: &str| std::fs::read_to_string(place.path(name)).expect("it was written");
+    assert!(
+        read("deep/radiosity.1").contains("radiosity")
+            && read("deep/radiosity-solve.1").contains("checkpoint")
+    );
+    // It is for those who package the command, not for its users.
+    assert!(!place.run(&["--help"]).done().stdout.contains("generate"));
+    place.run(&["generate", "man", "nowhere"]).refused(1, &["nowhere"]);
+}
+
+/// Every command has its result on standard output as one value, and says what it has written.
+#[test]
+fn json_is_the_same_everywhere() {
+    let place = Place::new();
+    let furnace = scene("furnace.obj");
+    let box_ = scene("cornell-box.obj");
+    let solved = place.solve(&["-o", "a.glb", "--relightable", "--json"]);
+    let render = place.run(&["render", "a.glb", "-o", "a.png", "--size", "20x20", "--json"]);
+    let relight = place.run(&["relight", "a.glb", "-o", "b.glb", "--json"]);
+    let factors = ["form-factors", &furnace, "--patch-size", "9", "-o", "F.csv", "--json"];
+    let factors = place.run(&factors);
+    for (outcome, written) in
+        [(solved, "a.glb"), (render, "a.png"), (relight, "b.glb"), (factors, "F.csv")]
+    {
+        let json = outcome.done().json();
+        assert_eq!(json["finished"], true, "{json}");
+        assert_eq!(json["written"], serde_json::json!([written]), "{json}");
+        assert!(json["seconds"][0]["phase"].is_string(), "{json}");
+    }
+    assert!(place.run(&["info", &box_, "--json"]).done().json()["materials"].is_array());
+    let quick = [
+        "--adaptive",
+        "50%",
+        "--uniform",
+        "0.2",
+        "--places",
+        "200",
+        "--noise",
+        "50%",
+        "--stop",
+        "5%",
+    ];
+    let compare = [&["compare", box_.as_str()][..], &quick, &["--csv", "a.csv", "--json"]].concat();
+    let json = place.run(&compare).done().json();
+    assert_eq!(json["runs"].as_array().map(Vec::len), Some(2));
+    assert_eq!(json["written"], serde_json::json!(["a.csv"]));
+    assert_eq!(json["finished"], true);
+}
+
+/// Whoever gives lamps in lumens is told of lumens.
+#[test]
+fn powers_are_told_in_the_units_of_the_lamps() {
+    let place = Place::new();
+    let room = scene("bare-room.obj");
+    let solve = |lamp: &str| {
+        let light = ["--area-light", lamp, "--quality", "draft", "--uniform", "0.5"];
+        place.run(&[&["solve", room.as_str()][..], &light].concat()).done().stdout
+    };
+    let photometric = solve("2,2.3,2=0.5x0.5=1000lm");
+    let line = photometric.lines().find(|line| line.starts_with("emitted")).expect("a line");
+    assert!(photometric.contains("flux, lm") && !photometric.contains("power, W"), "{photometric}");
+    let lumens: f64 = line["emitted".len()..].trim().parse().expect("a number");
+    assert!((lumens - 1000.0).abs() < 0.1, "{line}");
+    assert!(solve("2,2.3,2=0.5x0.5=5").contains("power, W"));
+}
+
+#[test]
 fn unknown_endings_are_refused_before_the_scene_is_read() {
     let place = Place::new();
     place.run(&["solve", "missing.obj", "-o", "a.stl"]).refused(2, &["a.stl", ".glb"]);
