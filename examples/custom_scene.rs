@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use glam::DVec3;
 use radiosity::colour::Rgb;
 use radiosity::export::{self, Stamp};
+use radiosity::glam::DVec3;
 use radiosity::render::{self, Display, RenderOptions};
 use radiosity::scene::{Face, Material, Scene};
 use radiosity::tone::{Exposure, exposure_scale};
@@ -23,7 +23,7 @@ fn main() -> radiosity::Result<()> {
     parallelogram(&mut scene, table, DVec3::new(1.0, 0.7, 0.8), [0.9 * z, 2.0 * x]);
     parallelogram(&mut scene, lamp, DVec3::new(1.6, 2.2, 1.0), [0.8 * x, 0.4 * z]);
 
-    let surfaces = surfaces_of(&scene);
+    let surfaces = surfaces_of(&scene.build()?);
     let solution = solve(&surfaces, &Settings::draft(), |_| ControlFlow::Continue(()))?;
     let mesh = reconstruct(&surfaces, &solution);
     export::save(&mesh, Path::new("out/custom-scene.glb"), &Stamp::default())?;

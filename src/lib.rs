@@ -6,7 +6,7 @@
 //!
 //! | step | what it promises |
 //! |---|---|
-//! | [`load`] → [`Scene`] | what the file says, every default settled, every repair told in a note |
+//! | [`load`], or [`Scene::build`] → [`Scene`] | what the file or the code says, every default settled, every repair told in a note |
 //! | [`surfaces_of`] → [`Surfaces`] | planar polygons, holes allowed, of one material, and their contact lines |
 //! | [`mesh::Mesh::new`] | patches, cut along contact lines, and under each a tree of elements |
 //! | [`solve`] → [`Solution`] | light on the mesh, the mesh refined where the light asks for it, and why it stopped |
@@ -95,6 +95,8 @@ pub mod page;
 pub mod compare;
 
 pub use error::{Error, Result};
+/// The crate of vectors and matrices that positions, colours and transforms are made of, in the version used here.
+pub use glam;
 pub use reconstruct::{TriMesh, reconstruct};
 pub use scene::{Scene, load};
 pub use settings::{Length, Settings};

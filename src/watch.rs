@@ -1,9 +1,15 @@
 //! Long work in batches: between them a caller hears how much is done, and says whether to go on.
 //!
 //! One way for all phases. What may take long takes `observe`, tells it the share done, 0..=1, and ends when that
-//! breaks off. Batches are sized by time, so results must not depend on where one ends.
+//! breaks off. Batches are sized by time, so results must not depend on where one ends. Items may turn out to be much
+//! harder than those before them: so the caller is asked while a batch is under way, too, and what is left of it is
+//! dropped.
 
 use std::ops::ControlFlow;
+use std::panic::resume_unwind;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
@@ -14,6 +20,56 @@ const BATCH: Duration = Duration::from_millis(150);
 
 /// A batch has so many times the items of the one before at most: those to come may be harder.
 const GROWTH: usize = 4;
+
+/// How often the caller is asked while a batch takes longer than it was to.
+const ASK: Duration = Duration::from_millis(250);
+
+/// Known to all who work on something: whether there has been enough, so that the rest may be dropped.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Enough(Arc<AtomicBool>);
+
+impl Enough {
+    /// Whether there has been.
+    pub(crate) fn is_said(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+
+    fn say(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Does `work`, and asks every so often meanwhile whether to go on with it; `work` learns of it when it asks.
+///
+/// Threads of the pool do not ask: while they waited, there would be nobody to do the work.
+pub(crate) fn watched<R: Send>(
+    work: impl FnOnce(&Enough) -> R + Send,
+    mut go_on: impl FnMut() -> ControlFlow<()>,
+) -> R {
+    let enough = Enough::default();
+    if rayon::current_thread_index().is_some() {
+        return work(&enough);
+    }
+    let asking = thread::current();
+    thread::scope(|scope| {
+        let worker = scope.spawn(|| {
+            let result = work(&enough);
+            asking.unpark();
+            result
+        });
+        let mut asked = Instant::now();
+        while !worker.is_finished() {
+            thread::park_timeout(ASK);
+            if asked.elapsed() >= ASK && !worker.is_finished() {
+                asked = Instant::now();
+                if go_on().is_break() {
+                    enough.say();
+                }
+            }
+        }
+        worker.join().unwrap_or_else(|panic| resume_unwind(panic))
+    })
+}
 
 /// How many items to do before the caller is asked again.
 #[derive(Clone, Copy, Debug)]
@@ -44,22 +100,43 @@ impl Pace {
 /// items only, once `observe` breaks off.
 pub(crate) fn in_batches<T: Sync, S, R: Send>(
     items: &[T],
-    tool: impl Fn() -> S + Sync + Send,
+    tool: impl Fn(&Enough) -> S + Sync + Send,
     work: impl Fn(&mut S, &T) -> R + Sync + Send,
     mut observe: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Vec<R> {
     let mut results = Vec::with_capacity(items.len());
     let mut pace = Pace::new();
     while results.len() < items.len() {
-        if observe(results.len() as f64 / items.len() as f64).is_break() {
+        let done = results.len() as f64 / items.len() as f64;
+        if observe(done).is_break() {
             break;
         }
         let start = Instant::now();
         let batch = pace.batch(&items[results.len()..]);
-        results.par_extend(batch.par_iter().map_init(&tool, &work));
+        let found = watched(|enough| all_of(batch, enough, &tool, &work), || observe(done));
+        let whole = found.iter().all(Option::is_some);
+        results.extend(found.into_iter().map_while(|result| result));
+        if !whole {
+            break;
+        }
         pace.learn(batch.len(), start.elapsed());
     }
     results
+}
+
+/// What `work` makes of each item, all threads at it; none of those that there has been enough for.
+fn all_of<T: Sync, S, R: Send>(
+    items: &[T],
+    enough: &Enough,
+    tool: &(impl Fn(&Enough) -> S + Sync + Send),
+    work: &(impl Fn(&mut S, &T) -> R + Sync + Send),
+) -> Vec<Option<R>> {
+    let one = |tool: &mut S, item: &T| {
+        let result = (!enough.is_said()).then(|| work(tool, item));
+        // What was broken off on the way is not whole.
+        result.filter(|_| !enough.is_said())
+    };
+    items.par_iter().map_init(|| tool(enough), one).collect()
 }
 
 /// Lets work go on for `time`, whoever asks.
@@ -73,7 +150,7 @@ mod tests {
     use super::*;
 
     fn squares(items: &[u64], observe: impl FnMut(f64) -> ControlFlow<()>) -> Vec<u64> {
-        in_batches(items, || (), |(), x| x * x, observe)
+        in_batches(items, |_| (), |(), x| x * x, observe)
     }
 
     #[test]
@@ -98,6 +175,28 @@ mod tests {
         assert!(!some.is_empty() && some.len() < items.len());
         assert_eq!(some.last(), Some(&(some.len() as u64 - 1).pow(2)));
         assert!(squares(&items, |_| ControlFlow::Break(())).is_empty());
+    }
+
+    /// Items that take a hundred times as long as those before them, and one that would take for ever.
+    #[test]
+    fn a_batch_that_turns_out_hard_is_dropped() {
+        let items: Vec<u64> = (0..10_000).collect();
+        let work = |enough: &mut Enough, item: &u64| {
+            let is_over = || enough.is_said();
+            match item {
+                0..2_000 => thread::sleep(Duration::from_micros(10)),
+                2_000 => while !is_over() {},
+                _ => thread::sleep(Duration::from_millis(20)),
+            }
+            *item
+        };
+        let start = Instant::now();
+        let found = in_batches(&items, Enough::clone, work, |_| match start.elapsed() {
+            time if time < Duration::from_millis(600) => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
+        });
+        assert!(start.elapsed() < Duration::from_millis(1500), "{:?}", start.elapsed());
+        assert_eq!(found, items[..2_000]);
     }
 
     #[test]

@@ -1,17 +1,13 @@
 //! A comparison as a table, and what it comes to.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use radiosity::compare::{
     Band, Comparison, Family, Origin, Run, Set, laws, nearest_law, number, percent,
 };
 
 /// The runs, the reference, the slopes and the verdict, for people.
-pub(crate) fn table<'a>(
-    scene: &Path,
-    comparison: &Comparison,
-    written: impl Iterator<Item = &'a Path>,
-) -> String {
+pub(crate) fn table(scene: &Path, comparison: &Comparison, written: &[PathBuf]) -> String {
     let mut lines = vec![format!("{}", scene.display())];
     lines.push(header());
     lines.extend(comparison.runs.iter().map(row));
@@ -23,7 +19,7 @@ pub(crate) fn table<'a>(
     }
     lines.push(String::new());
     lines.extend(comparison.verdict.sentences().into_iter().filter(|line| !line.is_empty()));
-    let written: Vec<String> = written.map(|path| path.display().to_string()).collect();
+    let written: Vec<String> = written.iter().map(|path| path.display().to_string()).collect();
     if !written.is_empty() {
         lines.push(format!("\nwritten    {}", written.join(", ")));
     }

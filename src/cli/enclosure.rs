@@ -105,10 +105,10 @@ impl Display for Enclosure {
         let all = (self.patches * self.patches).max(1) as f64;
         let share = 100.0 * self.factors_above_zero as f64 / all;
         writeln!(f, "patches      {}", self.patches)?;
-        if self.rows < self.patches {
-            writeln!(f, "stopped      after {} rows; the others are empty", self.rows)?;
-        }
         writeln!(f, "factors      {} above zero, {share:.0} % of all", self.factors_above_zero)?;
+        if self.rows < self.patches {
+            return write!(f, "unfinished   after {} rows; the others are empty", self.rows);
+        }
         writeln!(f, "closure      rows sum to 1 within {:.1e}", self.closure)?;
         writeln!(f, "reciprocity  kept within {:.1e}, of factors above 1e-4", self.reciprocity)?;
         if self.buried > 0 {

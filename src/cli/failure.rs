@@ -15,10 +15,17 @@ pub(crate) enum Failure {
     Usage(Error),
     /// The work failed.
     Work(Error),
+    /// The work was ended early, by a signal or a limit of time; what there was by then is written.
+    Unfinished,
+    /// It was ended before there was anything to write; the exit code.
+    Empty(u8),
 }
 
+/// Exit code of work that was ended early, and has written what there was.
+const UNFINISHED: u8 = 3;
+
 impl Failure {
-    /// Says it on stderr (help on stdout); 0 after help, 1 if the work failed, 2 on wrong usage.
+    /// Says it on stderr (help on stdout); 0 after help, 1 if the work failed, 2 on wrong usage, 3 if it is unfinished.
     pub(crate) fn tell(self) -> ExitCode {
         match self {
             Self::Arguments(error) => {
@@ -34,6 +41,12 @@ impl Failure {
                 console::tell(&format!("radiosity: {error}"));
                 ExitCode::from(1)
             }
+            // It has been told when the end was asked for.
+            Self::Empty(code) => {
+                console::tell("radiosity: ended too early; there is nothing to write");
+                ExitCode::from(code)
+            }
+            Self::Unfinished => ExitCode::from(UNFINISHED),
         }
     }
 }

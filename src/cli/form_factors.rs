@@ -4,19 +4,21 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use glam::DVec3;
-use radiosity::export::{FactorPatch, FactorTable, save_factors};
+use radiosity::export::{FactorPatch, FactorTable, check_writable_factors, save_factors};
 use radiosity::form_factor::{self, Assembled, assemble, factors_at};
 use radiosity::mesh::Mesh;
 use radiosity::visibility::Occluders;
 use radiosity::{Error, Length, Settings, Surfaces, faces_of};
+use serde::Serialize;
 
 use super::console;
 use super::enclosure::Enclosure;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
-use super::meter::Meter;
-use super::options::{ReportOptions, SceneOptions, values};
-use super::outputs;
+use super::meter::{Meter, Timing};
+use super::options::{ReportOptions, SceneOptions, TimeOptions, WritingOptions, values};
+use super::outputs::Outputs;
+use super::streams::Streams;
 
 /// Most bytes that a matrix may take, if all its factors were above zero.
 const MOST_BYTES: f64 = 16e9;
@@ -24,10 +26,17 @@ const MOST_BYTES: f64 = 16e9;
 /// Bytes of a factor: 64 bits of value, 32 of column.
 const FACTOR_BYTES: f64 = 12.0;
 
+/// Cells along a hemicube's edge if nothing is said of it.
+const CELLS: u32 = 256;
+
+/// Rays from each point if nothing is said of them.
+const RAYS: u32 = 65_536;
+
 /// Compute the form factors (view factors) between all patches, and from a point
 ///
 /// F[i][j] is the share of the light leaving patch i that arrives at patch j. Faces are not joined: with a
-/// patch size above the scene's, each polygon of the file is one patch. Nothing needs to emit light.
+/// patch size above the scene's, each polygon of the file is one patch. Nothing needs to emit light. Ctrl-C, SIGTERM and
+/// --time-limit end the work early: the rows that are done are written, the others are empty, and the exit code is 3.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct FormFactors {
@@ -38,6 +47,9 @@ pub(crate) struct FormFactors {
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
 
+    #[command(flatten)]
+    writing: WritingOptions,
+
     /// How to find what is hidden; where nothing is, all methods use the exact formula
     #[arg(long, value_enum, default_value_t = Method::Contour)]
     method: Method,
@@ -46,22 +58,25 @@ pub(crate) struct FormFactors {
     #[arg(long, value_name = "METRES", value_parser = values::number)]
     patch_size: Option<f64>,
 
-    /// Form factors from this point and normal, too: x,y,z,nx,ny,nz
+    /// Form factors from this point and normal, too, in a .json or .csv: x,y,z,nx,ny,nz
     #[arg(long, value_name = "X,Y,Z,NX,NY,NZ", value_parser = values::place)]
-    #[arg(allow_hyphen_values = true)]
+    #[arg(allow_hyphen_values = true, requires = "output")]
     at: Option<(DVec3, DVec3)>,
 
     /// Make the matrix reciprocal and, in a closed scene, its rows sum to one, to within 1e-12
     #[arg(long)]
     enforce: bool,
 
-    /// Cells along a hemicube's edge: even, 32 to 1024
-    #[arg(long, value_name = "CELLS", default_value_t = 256)]
-    hemicube_resolution: u32,
+    /// Cells along a hemicube's edge, with --method hemicube: even, 32 to 1024 (default: 256)
+    #[arg(long, value_name = "CELLS")]
+    hemicube_resolution: Option<u32>,
 
-    /// Rays from each point (64 to 16777216)
-    #[arg(long, value_name = "N", default_value_t = 65_536)]
-    rays: u32,
+    /// Rays from each point, with --method rays: 64 to 16777216 (default: 65536)
+    #[arg(long, value_name = "N")]
+    rays: Option<u32>,
+
+    #[command(flatten)]
+    time: TimeOptions,
 
     #[command(flatten)]
     report: ReportOptions,
@@ -84,21 +99,27 @@ enum Method {
 }
 
 impl FormFactors {
-    pub(crate) fn run(self) -> Result<(), Failure> {
+    pub(crate) fn run(mut self) -> Result<(), Failure> {
+        let mut streams = Streams::default();
+        streams.divert(&mut self.output, (&self.writing, self.report.json))?;
         let (settings, method) = (self.settings()?, self.method()?);
-        outputs::check_factors(&self.scene.path, &self.output)?;
+        let outputs = Outputs { files: self.output.clone(), force: self.writing.force };
+        outputs.check(&self.scene.files(), &[])?;
+        self.output.iter().try_for_each(|path| check_writable_factors(path))?;
         self.report.talk.use_threads()?;
-        let interrupt = Interrupt::listen();
+        let interrupt = Interrupt::listen().within(self.time.time_limit);
         let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
         let scene = self.scene.load()?;
         scene.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
+        outputs.check(&scene.files, &[])?;
         let surfaces = patches_from(faces_of(&scene), &settings);
         settings.validate_for(surfaces.divided_area(), surfaces.extent)?;
         let mesh = Mesh::new(&surfaces, &settings);
         tell_memory(&mesh, &meter)?;
         let occluders = Occluders::new(&surfaces);
         let assembled = assemble(&mesh.patches, &occluders, method, |done| {
+            interrupt.worth_writing();
             meter.advance("form factors", done);
             interrupt.flow()
         });
@@ -114,19 +135,27 @@ impl FormFactors {
         }
         self.output.iter().try_for_each(|path| save_factors(&table, path))?;
         meter.end();
+        streams.deliver()?;
         match (self.report.json, self.report.talk.quiet) {
-            (true, _) => console::print_json(&enclosure)?,
+            (true, _) => console::print_json(&Outcome {
+                finished: interrupt.is_whole(),
+                scene: self.scene.path,
+                enclosure: &enclosure,
+                written: self.output.iter().map(|path| streams.name(path)).collect(),
+                seconds: meter.into_timings(),
+                notes: scene.notes,
+            })?,
             (false, true) => (),
-            (false, false) => console::print(&enclosure.to_string())?,
+            (false, false) => streams.print(&enclosure.to_string())?,
         }
-        Ok(())
+        interrupt.ending()
     }
 
     fn settings(&self) -> Result<Settings, Error> {
         let settings = Settings::medium();
         let settings = Settings {
             patch_size: self.patch_size.map_or(settings.patch_size, Length::Metres),
-            hemicube_resolution: self.hemicube_resolution,
+            hemicube_resolution: self.cells(),
             ..settings
         };
         settings.validate()?;
@@ -134,16 +163,45 @@ impl FormFactors {
     }
 
     fn method(&self) -> Result<form_factor::Method, Error> {
-        if !(64..=1 << 24).contains(&self.rays) {
-            let message = format!("{} is out of range; use 64 to {}", self.rays, 1 << 24);
-            return Err(Error::Setting { name: "rays", message });
+        let refused = |name, message: String| Err(Error::Setting { name, message });
+        if self.rays.is_some() && !matches!(self.method, Method::Rays) {
+            return refused("rays", "are those of --method rays; say that, too".to_owned());
+        }
+        if self.hemicube_resolution.is_some() && !matches!(self.method, Method::Hemicube) {
+            let message = "is that of --method hemicube; say that, too".to_owned();
+            return refused("hemicube-resolution", message);
+        }
+        let rays = self.rays.unwrap_or(RAYS);
+        if !(64..=1 << 24).contains(&rays) {
+            return refused("rays", format!("{rays} is out of range; use 64 to {}", 1 << 24));
+        }
+        let is_matrix = |path: &PathBuf| path.extension().is_some_and(|end| end == "npy");
+        if self.at.is_some() && self.output.iter().all(is_matrix) {
+            let message = "has no place in a .npy; write a .json or .csv, too".to_owned();
+            return refused("at", message);
         }
         Ok(match self.method {
-            Method::Hemicube => form_factor::Method::Hemicube(self.hemicube_resolution),
+            Method::Hemicube => form_factor::Method::Hemicube(self.cells()),
             Method::Contour => form_factor::Method::Contour,
-            Method::Rays => form_factor::Method::Rays(self.rays),
+            Method::Rays => form_factor::Method::Rays(rays),
         })
     }
+
+    fn cells(&self) -> u32 {
+        self.hemicube_resolution.unwrap_or(CELLS)
+    }
+}
+
+/// A matrix in figures, with what the command knows beside it.
+#[derive(Debug, Serialize)]
+struct Outcome<'a> {
+    finished: bool,
+    scene: PathBuf,
+    #[serde(flatten)]
+    enclosure: &'a Enclosure,
+    written: Vec<PathBuf>,
+    seconds: Vec<Timing>,
+    notes: Vec<String>,
 }
 
 /// Without contact lines if patches may be as large as the scene: then polygons stay whole.

@@ -42,8 +42,8 @@ pub(crate) struct GridFigures {
     mean: f64,
     min: f64,
     max: f64,
-    /// The darkest by the mean.
-    uniformity: f64,
+    /// The darkest by the mean; null without light.
+    uniformity: Option<f64>,
 }
 
 impl GridOptions {
@@ -85,8 +85,12 @@ impl Display for GridFigures {
         let Self { height, places, mean, min, max, uniformity, .. } = self;
         write!(
             f,
-            "grid       {places} places at {height} m: mean {mean:.1} lx, {min:.1} to {max:.1} lx, U0 {uniformity:.2}"
-        )
+            "grid       {places} places at {height} m: mean {mean:.1} lx, {min:.1} to {max:.1} lx, "
+        )?;
+        match uniformity {
+            Some(uniformity) => write!(f, "U0 {uniformity:.2}"),
+            None => write!(f, "in darkness, without a U0"),
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use super::options::{AccuracyOptions, ReportOptions, SceneOptions};
 
 /// Show what would be solved: surfaces, materials, emitters, size in metres, repairs
 ///
-/// Nothing is computed. Look at the size first: a room of 300 metres wants `--units cm`, and one as high as a house is long, `--up z`.
+/// Nothing is computed: options of accuracy are those of `solve`, but only sizes of patches and of uniform elements show. Look at the size first: a room of 300 metres wants `--units cm`, and one as high as a house is long, `--up z`.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  radiosity info scenes/office.obj --quality high")]
 pub(crate) struct Info {

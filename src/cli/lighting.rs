@@ -1,5 +1,7 @@
 //! The work of `radiosity solve` itself: with its checkpoint, and with lights kept apart if they are to be.
 
+use std::path::PathBuf;
+
 use clap::Args;
 use radiosity::colour::Rgb;
 use radiosity::reconstruct::reconstruct_by_light;
@@ -27,6 +29,19 @@ pub(crate) struct RelightOptions {
     #[arg(long, value_name = "PATTERN,...", num_args = 0..=1, require_equals = true, value_delimiter = ',')]
     #[arg(help_heading = "Writing", conflicts_with_all = ["history", "snapshots"])]
     relightable: Option<Vec<String>>,
+}
+
+impl RelightOptions {
+    /// Whether something is written that keeps lights apart.
+    pub(crate) fn check(&self, outputs: &[PathBuf]) -> Result<()> {
+        let keeps =
+            |path: &PathBuf| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("glb"));
+        if self.relightable.is_none() || outputs.iter().any(keeps) {
+            return Ok(());
+        }
+        let message = "only a GLB keeps lights apart; write one, as in -o FILE.glb".to_owned();
+        Err(Error::Setting { name: "relightable", message })
+    }
 }
 
 /// What is to be lit, and how.
@@ -98,6 +113,7 @@ impl Lighting<'_> {
             meter.tell("going on from the checkpoint");
         }
         let done = work(&mut checkpoint, &mut |progress| {
+            interrupt.worth_writing();
             meter.follow(progress);
             interrupt.flow()
         });

@@ -6,9 +6,10 @@ use clap::Args;
 use radiosity::export::{Stamp, check_writable_lightmap, lightmap_files, save_lightmap};
 use radiosity::lightmap::{Atlas, SIZES, bake};
 use radiosity::render::{Solved, Subject};
-use radiosity::{Result, Surfaces};
+use radiosity::{Error, Result, Surfaces};
 
 use super::meter::Meter;
+use super::streams::Streams;
 
 /// The lightmap to write.
 #[derive(Debug, Args)]
@@ -27,7 +28,11 @@ pub(crate) struct LightmapOptions {
 
 impl LightmapOptions {
     /// Whether the files could be written.
-    pub(crate) fn check(&self, outputs: &[PathBuf]) -> Result<()> {
+    pub(crate) fn check(&self, outputs: &[PathBuf], streams: &Streams) -> Result<()> {
+        if self.lightmap.is_some() && outputs.first().is_some_and(|first| streams.holds(first)) {
+            let message = "takes its name from the first -o, which must be a file".to_owned();
+            return Err(Error::Setting { name: "lightmap", message });
+        }
         self.path(outputs).as_deref().map_or(Ok(()), check_writable_lightmap)
     }
 

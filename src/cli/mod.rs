@@ -1,4 +1,4 @@
-//! What the command understands, and how it ends: 0 done, 1 failed, 2 wrong usage.
+//! What the command understands, and how it ends: 0 done, 1 failed, 2 wrong usage, 3 ended early.
 
 mod compare;
 mod compared;
@@ -9,6 +9,7 @@ mod estimate;
 mod facts;
 mod failure;
 mod form_factors;
+mod generate;
 mod grid;
 mod info;
 mod interrupt;
@@ -24,12 +25,13 @@ mod relight;
 mod render;
 mod report;
 mod solve;
+mod streams;
 mod summary;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use failure::Failure;
 
@@ -50,7 +52,9 @@ Examples:
   radiosity form-factors scenes/furnace.obj --patch-size 1 -o F.json
   radiosity info scenes/office.obj
 
-`radiosity help solve` explains every option. Exit codes: 0 done, 1 failed, 2 wrong usage.";
+`radiosity help solve` explains every option.
+Exit codes: 0 done; 1 failed; 2 wrong usage; 3 ended early by Ctrl-C, SIGTERM or a time limit, what there is
+is written and marked as unfinished; 130 ended by a signal before there was anything to write.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -60,6 +64,8 @@ enum Command {
     Compare(Box<compare::Compare>),
     FormFactors(form_factors::FormFactors),
     Info(info::Info),
+    #[command(hide = true)]
+    Generate(generate::Generate),
 }
 
 /// Does what the arguments say, the program's name first among them.
@@ -71,14 +77,27 @@ pub(crate) fn run(arguments: Vec<OsString>) -> ExitCode {
 }
 
 fn parse(arguments: Vec<OsString>) -> Result<Cli, Failure> {
-    let cli = Cli::try_parse_from(&arguments)?;
+    let cli = parsed(&arguments)?;
     let Command::Solve(solve) = &cli.command else {
         return Ok(cli);
     };
     match &solve.config {
-        Some(path) => Ok(Cli::try_parse_from(config::merged(&Cli::command(), arguments, path)?)?),
+        Some(path) => Ok(parsed(&config::merged(&command(), arguments, path)?)?),
         None => Ok(cli),
     }
+}
+
+fn parsed(arguments: &[OsString]) -> Result<Cli, clap::Error> {
+    Cli::from_arg_matches(&command().try_get_matches_from(arguments)?)
+}
+
+/// The command with all its options. A number below zero is a value, to be judged by its option: no option is a number.
+fn command() -> clap::Command {
+    let takes_number = |option: clap::Arg| {
+        let is_valued = option.get_long().is_some() && option.get_action().takes_values();
+        if is_valued { option.allow_negative_numbers(true) } else { option }
+    };
+    Cli::command().mut_subcommands(|subcommand| subcommand.mut_args(takes_number))
 }
 
 impl Command {
@@ -90,6 +109,7 @@ impl Command {
             Self::Compare(compare) => compare.run(),
             Self::FormFactors(form_factors) => form_factors.run(),
             Self::Info(info) => info.run(),
+            Self::Generate(generate) => generate.run(command()),
         }
     }
 }

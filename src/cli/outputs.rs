@@ -1,77 +1,79 @@
-//! Files to write: checked before the work, written after it.
+//! Files to write: checked before the work, written after it, never in the place of what is read.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
-use radiosity::{Error, Result, compare, export, page, render};
+use radiosity::scene::Texture;
+use radiosity::{Error, Result, export};
 
-use super::lightmap::LightmapOptions;
-
-/// Whether all files could be written, and none of them is the one that is read.
-pub(crate) fn check(
-    input: &Path,
-    meshes: &[PathBuf],
-    pictures: &[PathBuf],
-    tables: &[&Path],
-) -> Result<()> {
-    for path in meshes {
-        refuse_input(input, path)?;
-        export::check_writable(path)?;
-    }
-    for path in pictures {
-        refuse_input(input, path)?;
-        render::check_writable(path)?;
-    }
-    for path in tables {
-        refuse_input(input, path)?;
-        export::check_history(path)?;
-    }
-    Ok(())
+/// All that a command writes.
+#[derive(Debug)]
+pub(crate) struct Outputs {
+    /// Files that are asked for by name, or belong to one that is.
+    pub(crate) files: Vec<PathBuf>,
+    /// Whether inputs may be overwritten, and what others have put beside the outputs.
+    pub(crate) force: bool,
 }
 
-/// The same for a lightmap, whose files are others than those of meshes and pictures.
-pub(crate) fn check_lightmap(
-    input: &Path,
-    lightmap: &LightmapOptions,
-    (meshes, pictures): (&[PathBuf], &[PathBuf]),
-) -> Result<()> {
-    for path in lightmap.files(meshes) {
-        refuse_input(input, &path)?;
-        if meshes.contains(&path) || pictures.contains(&path) {
-            let message =
-                "is to be written twice: a lightmap has a coarse mesh and maps of its own";
-            return Err(Error::format(&path, message));
+impl Outputs {
+    /// Whether all outputs can be written without harm: none in the place of another, nor of one of the `inputs`, nor
+    /// something beside it, as the materials and `textures` of an OBJ are, in the place of what others have put there.
+    pub(crate) fn check(&self, inputs: &[PathBuf], textures: &[Texture]) -> Result<()> {
+        let meshes = || self.files.iter().map(|path| export::beside(path, textures));
+        let all: Vec<PathBuf> = self.files.iter().cloned().chain(meshes().flatten()).collect();
+        let places: Vec<Option<PathBuf>> = all.iter().map(|path| place(path)).collect();
+        for (number, (path, place)) in all.iter().zip(&places).enumerate() {
+            refuse_missing_folder(path)?;
+            if place.is_some() && places[..number].contains(place) {
+                return Err(Error::format(
+                    path,
+                    "is to be written twice; give each file its own name",
+                ));
+            }
+        }
+        if self.force {
+            return Ok(());
+        }
+        let there = inputs.iter().filter(|path| path.exists());
+        let read: Vec<Option<PathBuf>> = there.map(|path| place(path)).collect();
+        let is_read = |place: &Option<PathBuf>| place.is_some() && read.contains(place);
+        if let Some((path, _)) = all.iter().zip(&places).find(|(_, place)| is_read(place)) {
+            let message = "is a file that this run reads; write to another, or use --force";
+            return Err(Error::format(path, message));
+        }
+        match self.files.iter().flat_map(|path| export::strangers(path, textures)).next() {
+            Some(path) => Err(Error::format(
+                &path,
+                "is there already, and would be written beside an output; give that another name, or use --force",
+            )),
+            None => Ok(()),
         }
     }
-    lightmap.check(meshes)
 }
 
-/// The same for matrices of form factors.
-pub(crate) fn check_factors(input: &Path, outputs: &[PathBuf]) -> Result<()> {
-    for path in outputs {
-        refuse_input(input, path)?;
-        export::check_writable_factors(path)?;
+/// The place that a path leads to, through links; none if its folder is not there, or what is written is not kept.
+fn place(path: &Path) -> Option<PathBuf> {
+    match fs::metadata(path) {
+        Ok(about) if !about.is_file() => None,
+        Ok(_) => path.canonicalize().ok(),
+        Err(_) => Some(folder(path).canonicalize().ok()?.join(path.file_name()?)),
     }
-    Ok(())
 }
 
-/// The same for comparisons: a page, tables of runs, and the reference, none in the place of another.
-pub(crate) fn check_compared(
-    inputs: &[&Path],
-    report: Option<&Path>,
-    outputs: &[&Path],
-) -> Result<()> {
-    if let Some(path) = report {
-        inputs.iter().try_for_each(|input| refuse_input(input, path))?;
-        page::check_writable(path)?;
+fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
     }
-    for (number, path) in outputs.iter().enumerate() {
-        inputs.iter().try_for_each(|input| refuse_input(input, path))?;
-        if outputs[..number].contains(path) {
-            return Err(Error::format(path, "is to be written twice; give each file its own name"));
-        }
-        compare::check_writable(path)?;
+}
+
+/// A folder that is not there is more likely mistyped than wanted.
+fn refuse_missing_folder(path: &Path) -> Result<()> {
+    let folder = folder(path);
+    if folder.is_dir() {
+        return Ok(());
     }
-    Ok(())
+    Err(Error::format(path, format!("there is no folder {}; make it first", folder.display())))
 }
 
 /// Whether files have the one ending that they can have.
@@ -85,14 +87,5 @@ pub(crate) fn check_endings<'a>(
     match paths.into_iter().find(|path| !is_known(path)) {
         Some(path) => Err(Error::UnknownFormat { path: path.clone(), known }),
         None => Ok(()),
-    }
-}
-
-pub(crate) fn refuse_input(input: &Path, output: &Path) -> Result<()> {
-    match (input.canonicalize(), output.canonicalize()) {
-        (Ok(input), Ok(output)) if input == output => {
-            Err(Error::format(&output, "is the file that is read; write to another"))
-        }
-        _ => Ok(()),
     }
 }

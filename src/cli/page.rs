@@ -76,15 +76,23 @@ impl PageOptions {
             return Ok(());
         };
         meter.begin("page");
+        let missing = self.stages().len() - account.stages.len();
+        if missing > 0 {
+            let shots = 1 + account.solved.solution.reflected_shots();
+            meter.tell(&format!(
+                "note: {missing} of the snapshots are left out: all was done after {shots} shots"
+            ));
+        }
         let mut steps: Vec<Step> =
             account.stages.iter().map(|stage| early_step(&account.solved, stage)).collect();
         steps.push(last_step(account));
         let subject = Subject { mesh: account.mesh, solved: Some(account.solved) };
         let lights = &account.solved.surfaces.lights;
-        let picture = options.picture(View::Light, subject, (account.camera, lights), |done| {
+        let mut picture = options.picture(View::Light, subject, (account.camera, lights), |done| {
             meter.advance("page", done);
             interrupt.flow()
         });
+        picture.unfinished |= !interrupt.is_whole();
         let still = png(&picture, &account.display);
         let title = title(account.scene);
         let viewer = Viewer {

@@ -4,18 +4,21 @@ use std::path::PathBuf;
 
 use clap::Args;
 use radiosity::colour::Rgb;
-use radiosity::export;
 use radiosity::reconstruct::{Dimming, LightShare};
 use radiosity::scene::NamedLight;
 use radiosity::surface::LightGroup;
+use radiosity::{Error, export, render};
 use serde_json::json;
 
+use super::console;
 use super::failure::Failure;
+use super::interrupt::Interrupt;
 use super::meter::Meter;
-use super::options::{PictureOptions, ReportOptions};
+use super::options::{Elsewhere, PictureOptions, ReportOptions, WritingOptions};
+use super::outputs::Outputs;
 use super::record::{cameras, keep_lights, lights};
 use super::render::draw;
-use super::{console, outputs};
+use super::streams::Streams;
 
 /// Dim and colour the lights of a solved GLB, without solving again
 ///
@@ -43,6 +46,9 @@ pub(crate) struct Relight {
     image: Vec<PathBuf>,
 
     #[command(flatten)]
+    writing: WritingOptions,
+
+    #[command(flatten)]
     picture: PictureOptions,
 
     #[command(flatten)]
@@ -56,14 +62,16 @@ Examples:
   radiosity relight office.glb --light 'ceiling*=30%' --light desk=800lm -o evening.glb --image evening.png";
 
 impl Relight {
-    pub(crate) fn run(self) -> Result<(), Failure> {
-        outputs::check(&self.path, &self.output, &self.image, &[])?;
-        self.picture.views(&self.image)?;
-        self.picture.check_for_file()?;
+    pub(crate) fn run(mut self) -> Result<(), Failure> {
+        let streams = self.divert()?;
+        let outputs = self.outputs();
+        self.check(&outputs)?;
         self.report.talk.use_threads()?;
+        let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
         let (mut mesh, mut stamp) = export::load_solved(&self.path)?;
+        outputs.check(std::slice::from_ref(&self.path), &mesh.textures)?;
         let mut sky = lights(&stamp.settings);
         for (name, dimming) in &self.light {
             let before: Vec<Rgb> = mesh.lights.iter().map(|light| light.group.strength).collect();
@@ -73,6 +81,7 @@ impl Relight {
             }
         }
         keep_lights(&mut stamp.settings, &sky);
+        interrupt.worth_writing();
         let choice = self.picture.choose_camera(&cameras(&stamp.settings))?;
         let (camera, exposure) = self.picture.look(&choice, &mesh, stamp.exposure);
         stamp.exposure = exposure;
@@ -84,25 +93,56 @@ impl Relight {
         }
         if !self.image.is_empty() {
             meter.begin("picture");
-            draw((&mesh, &sky), (&self.picture, &self.image), (&camera, &stamp), &mut meter)?;
+            let pictures = (&self.picture, self.image.as_slice());
+            draw((&mesh, &sky), pictures, (&camera, &stamp), (&interrupt, &mut meter))?;
         }
+        streams.deliver()?;
         let seconds = meter.into_timings();
         let lights = mesh.lights.iter().map(|light| &light.group);
         if self.report.json {
-            let written: Vec<&PathBuf> = self.output.iter().chain(&self.image).collect();
+            let written: Vec<PathBuf> =
+                outputs.files.iter().map(|path| streams.name(path)).collect();
             let lights: Vec<_> = lights.collect();
-            console::print_json(
-                &json!({ "lights": lights, "written": written, "seconds": seconds }),
-            )?;
+            console::print_json(&json!({
+                "finished": stamp.finished && interrupt.is_whole(),
+                "lights": lights,
+                "written": written,
+                "seconds": seconds,
+            }))?;
         } else if !self.report.talk.quiet {
             for light in lights {
-                console::print(&format!("light \"{}\": {light}", light.name))?;
+                streams.print(&format!("light \"{}\": {light}", light.name))?;
             }
             if mesh.lights.is_empty() {
-                console::print("lights are not kept apart; solve with --relightable")?;
+                streams.print("lights are not kept apart; solve with --relightable")?;
             }
         }
-        Ok(())
+        interrupt.ending()
+    }
+
+    /// Puts files in the place of outputs that are none.
+    fn divert(&mut self) -> Result<Streams, Error> {
+        let mut streams = Streams::default();
+        let all = self.output.iter_mut().chain(&mut self.image);
+        streams.divert(all, (&self.writing, self.report.json))?;
+        Ok(streams)
+    }
+
+    fn outputs(&self) -> Outputs {
+        let files = self.output.iter().chain(&self.image).cloned().collect();
+        Outputs { files, force: self.writing.force }
+    }
+
+    /// Whether what is asked for can be written, and makes sense.
+    fn check(&self, outputs: &Outputs) -> Result<(), Error> {
+        outputs.check(std::slice::from_ref(&self.path), &[])?;
+        self.output.iter().try_for_each(|path| export::check_writable(path))?;
+        self.image.iter().try_for_each(|path| render::check_writable(path))?;
+        self.picture.views(&self.image)?;
+        let has_mesh = !self.output.is_empty();
+        let elsewhere = if has_mesh { Elsewhere::Colours } else { Elsewhere::Nothing };
+        self.picture.check_use(&self.image, elsewhere)?;
+        self.picture.check_for_file()
     }
 }
 

@@ -1,6 +1,5 @@
 //! `radiosity render`: a picture of a solved GLB, from anywhere.
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -10,15 +9,19 @@ use radiosity::scene::{Camera, NamedLight};
 use radiosity::{TriMesh, export};
 use serde_json::json;
 
+use super::console;
 use super::failure::Failure;
+use super::interrupt::Interrupt;
 use super::meter::Meter;
-use super::options::{PictureOptions, ReportOptions, display};
+use super::options::{Elsewhere, PictureOptions, ReportOptions, WritingOptions, display};
+use super::outputs::Outputs;
 use super::record::{CameraRecord, cameras, lights};
-use super::{console, outputs};
+use super::streams::Streams;
 
 /// Make a picture of a solved GLB, from anywhere
 ///
-/// The light is in the file: nothing is computed again, any view is ready in a moment.
+/// The light is in the file: nothing is computed again, any view is ready in a moment. Ctrl-C and SIGTERM leave edges
+/// unsmoothed; the exit code is 3 then.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Render {
@@ -29,6 +32,9 @@ pub(crate) struct Render {
     /// Picture to write: .png as seen, .hdr or .exr with linear radiance; may be repeated
     #[arg(short, long, value_name = "FILE", required = true)]
     output: Vec<PathBuf>,
+
+    #[command(flatten)]
+    writing: WritingOptions,
 
     #[command(flatten)]
     picture: PictureOptions,
@@ -44,11 +50,17 @@ Examples:
   radiosity render office.glb -o a.png -o b.png --view light,radiosity --size 1600x900";
 
 impl Render {
-    pub(crate) fn run(self) -> Result<(), Failure> {
-        outputs::check(&self.path, &[], &self.output, &[])?;
+    pub(crate) fn run(mut self) -> Result<(), Failure> {
+        let mut streams = Streams::default();
+        streams.divert(&mut self.output, (&self.writing, self.report.json))?;
+        let outputs = Outputs { files: self.output.clone(), force: self.writing.force };
+        outputs.check(std::slice::from_ref(&self.path), &[])?;
+        self.output.iter().try_for_each(|path| render::check_writable(path))?;
         self.picture.views(&self.output)?;
+        self.picture.check_use(&self.output, Elsewhere::Nothing)?;
         self.picture.check_for_file()?;
         self.report.talk.use_threads()?;
+        let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
         let (mesh, mut stamp) = export::load_solved(&self.path)?;
@@ -60,20 +72,25 @@ impl Render {
         meter.begin("picture");
         let (camera, exposure) = self.picture.look(&choice, &mesh, stamp.exposure);
         stamp.exposure = exposure;
-        draw((&mesh, &lights), (&self.picture, &self.output), (&camera, &stamp), &mut meter)?;
+        let pictures = (&self.picture, self.output.as_slice());
+        draw((&mesh, &lights), pictures, (&camera, &stamp), (&interrupt, &mut meter))?;
+        streams.deliver()?;
         let camera = CameraRecord::from(&camera);
+        let written: Vec<PathBuf> = self.output.iter().map(|path| streams.name(path)).collect();
         let seconds = meter.into_timings();
         if self.report.json {
-            let written = &self.output;
-            console::print_json(
-                &json!({ "camera": camera, "written": written, "seconds": seconds }),
-            )?;
+            console::print_json(&json!({
+                "finished": stamp.finished && interrupt.is_whole(),
+                "camera": camera,
+                "written": written,
+                "seconds": seconds,
+            }))?;
         } else if !self.report.talk.quiet {
             let names: Vec<String> =
-                self.output.iter().map(|path| path.display().to_string()).collect();
-            console::print(&format!("written: {}", names.join(", ")))?;
+                written.iter().map(|path| path.display().to_string()).collect();
+            streams.print(&format!("written: {}", names.join(", ")))?;
         }
-        Ok(())
+        interrupt.ending()
     }
 }
 
@@ -82,17 +99,18 @@ pub(crate) fn draw(
     (mesh, sky): (&TriMesh, &[NamedLight]),
     (options, paths): (&PictureOptions, &[PathBuf]),
     (camera, stamp): (&Camera, &Stamp),
-    meter: &mut Meter,
+    (interrupt, meter): (&Interrupt, &mut Meter),
 ) -> Result<(), Failure> {
+    interrupt.worth_writing();
     meter.explain(&format!("camera {}", CameraRecord::from(camera)));
     let display = display(mesh, stamp.exposure);
     let subject = Subject { mesh, solved: None };
     for (view, paths) in options.views(paths)? {
         let mut picture = options.picture(view, subject, (camera, sky), |done| {
             meter.advance("picture", done);
-            ControlFlow::Continue(())
+            interrupt.flow()
         });
-        picture.unfinished = !stamp.finished;
+        picture.unfinished = !stamp.finished || !interrupt.is_whole();
         for path in paths {
             render::save(&picture, path, &display)?;
         }

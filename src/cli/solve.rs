@@ -1,6 +1,6 @@
 //! `radiosity solve`: from a scene to a lit mesh and its picture.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use radiosity::colour::Rgb;
@@ -13,6 +13,7 @@ use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
 use radiosity::{Error, Scene, Settings, Solution, Surfaces, surfaces_of};
 
+use super::console;
 use super::estimate::Estimate;
 use super::failure::Failure;
 use super::grid::GridOptions;
@@ -22,20 +23,20 @@ use super::lightmap::LightmapOptions;
 use super::memory::Needs;
 use super::meter::Meter;
 use super::options::{
-    AccuracyOptions, CameraChoice, CheckpointOptions, HINT, LimitOptions, PictureOptions,
-    ReportOptions, SceneOptions, display,
+    AccuracyOptions, CameraChoice, CheckpointOptions, Elsewhere, HINT, LimitOptions,
+    PictureOptions, ReportOptions, SceneOptions, WritingOptions, display,
 };
+use super::outputs::Outputs;
 use super::page::{Account, PageOptions};
 use super::record::{CameraRecord, SettingsRecord, stamped};
+use super::streams::Streams;
 use super::summary::{Outcome, Summary};
-use super::{console, outputs};
 
 /// Light a scene and write the mesh that carries its light, and pictures of it
 ///
 /// Surfaces are diffuse. Light straight from emitters is exact and refines the mesh where shadows
 /// and gradients ask for it; reflected light is exchanged between patches until almost nothing is
-/// left unshot. Ctrl-C and SIGTERM end the work early and still
-/// write everything.
+/// left unshot. Ctrl-C, SIGTERM and --time-limit end the work early and still write everything, with exit code 3.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Solve {
@@ -59,6 +60,9 @@ pub(crate) struct Solve {
     /// share of the emitted power.
     #[arg(long, value_name = "FILE.csv", help_heading = "Writing")]
     history: Option<PathBuf>,
+
+    #[command(flatten)]
+    writing: WritingOptions,
 
     #[command(flatten)]
     relight: RelightOptions,
@@ -109,11 +113,9 @@ Examples:
   radiosity solve scenes/blocker.obj --uniform 0.1 --image uniform.png --eye 1,2,3 --target 0,0,0";
 
 impl Solve {
-    pub(crate) fn run(self) -> Result<(), Failure> {
-        self.accuracy.settings().validate()?;
-        self.check()?;
-        self.report.talk.use_threads()?;
-        let interrupt = Interrupt::listen().within(self.limits.time());
+    pub(crate) fn run(mut self) -> Result<(), Failure> {
+        let streams = self.prepare()?;
+        let interrupt = Interrupt::listen().within(self.limits.time.time_limit);
         let mut meter = Meter::new(&self.report.talk);
         self.warn_of_nothing(&meter);
 
@@ -132,8 +134,7 @@ impl Solve {
             stages: &self.page.stages(),
         };
         let Lit { solution, stages, mesh } = lighting.run(&interrupt, &mut meter)?;
-        refuse_darkness(&solution)?;
-        tell_if_full(&solution, &meter);
+        judge(&solution, &meter)?;
 
         let (camera, exposure) = self.picture.look(&camera, &mesh, Exposure::Automatic);
         let stamp = Stamp {
@@ -149,7 +150,7 @@ impl Solve {
             export::save_history(&solution.history, path)?;
         }
         let grid = self.grid.read(&places, solved, &interrupt, &mut meter)?;
-        let summary = Summary::new(&surfaces, &solution, &mesh);
+        let mut summary = Summary::new(&surfaces, &solution, &mesh);
         let account = Account {
             scene: &self.scene.path,
             mesh: &mesh,
@@ -162,15 +163,19 @@ impl Solve {
             notes: &scene.notes,
         };
         self.page.write(&account, &self.picture, &interrupt, &mut meter)?;
-        self.report_on(&Outcome {
+        summary.finished &= interrupt.is_whole();
+        let outcome = Outcome {
             scene: self.scene.path.clone(),
+            photometric: self.scene.is_photometric(),
             summary,
             grid,
             settings: settings_record,
             seconds: meter.into_timings(),
-            written: self.written().collect(),
+            written: self.written().map(|path| streams.name(&path)).collect(),
             notes: scene.notes,
-        })
+        };
+        self.report_on(&outcome, &streams)?;
+        interrupt.ending()
     }
 
     /// The settings, with as many elements as there is room for; tells what is asked for, and what to expect of it.
@@ -214,18 +219,51 @@ impl Solve {
         for note in &scene.notes {
             meter.tell(&format!("note: {note}"));
         }
+        self.outputs().check(&scene.files, &scene.textures)?;
         Ok((scene, camera))
     }
 
+    /// Whether what is asked for makes sense; files are put in the place of outputs that are none.
+    fn prepare(&mut self) -> Result<Streams, Failure> {
+        self.accuracy.settings().validate()?;
+        let streams = self.divert()?;
+        self.check(&streams)?;
+        self.report.talk.use_threads()?;
+        Ok(streams)
+    }
+
     /// Whether what is asked for can be written.
-    fn check(&self) -> Result<(), Failure> {
-        let tables: Vec<&Path> = self.tables().map(PathBuf::as_path).collect();
-        outputs::check(&self.scene.path, &self.output, &self.image, &tables)?;
-        self.checkpoint.check(&self.scene.path)?;
-        outputs::check_lightmap(&self.scene.path, &self.lightmap, (&self.output, &self.image))?;
+    fn check(&self, streams: &Streams) -> Result<(), Failure> {
+        let inputs: Vec<PathBuf> =
+            self.scene.files().into_iter().chain(self.config.clone()).collect();
+        self.outputs().check(&inputs, &[])?;
+        self.output.iter().try_for_each(|path| export::check_writable(path))?;
+        self.image.iter().try_for_each(|path| render::check_writable(path))?;
+        self.tables().try_for_each(|path| export::check_history(path))?;
+        self.checkpoint.check()?;
+        self.lightmap.check(&self.output, streams)?;
         self.page.check()?;
+        self.relight.check(&self.output)?;
         self.picture.views(&self.image)?;
-        Ok(())
+        let elsewhere = match (&self.page.html, self.output.is_empty()) {
+            (Some(_), _) => Elsewhere::Picture,
+            (None, false) => Elsewhere::Colours,
+            (None, true) => Elsewhere::Nothing,
+        };
+        Ok(self.picture.check_use(&self.image, elsewhere)?)
+    }
+
+    fn divert(&mut self) -> Result<Streams, Error> {
+        let mut streams = Streams::default();
+        let tables = self.history.iter_mut().chain(&mut self.grid.grid_csv);
+        let all = self.output.iter_mut().chain(&mut self.image).chain(tables);
+        streams.divert(all.chain(&mut self.page.html), (&self.writing, self.report.json))?;
+        Ok(streams)
+    }
+
+    fn outputs(&self) -> Outputs {
+        let files = self.written().chain(self.checkpoint.checkpoint.clone()).collect();
+        Outputs { files, force: self.writing.force }
     }
 
     fn warn_of_nothing(&self, meter: &Meter) {
@@ -245,11 +283,13 @@ impl Solve {
         self.history.iter().chain(&self.grid.grid_csv)
     }
 
-    fn report_on(&self, outcome: &Outcome) -> Result<(), Failure> {
+    /// Sends on what goes elsewhere than into files, and tells what came of it all.
+    fn report_on(&self, outcome: &Outcome, streams: &Streams) -> Result<(), Failure> {
+        streams.deliver()?;
         match (self.report.json, self.report.talk.quiet) {
             (true, _) => console::print_json(outcome)?,
             (false, true) => (),
-            (false, false) => console::print(&outcome.to_string())?,
+            (false, false) => streams.print(&outcome.to_string())?,
         }
         Ok(())
     }
@@ -286,10 +326,11 @@ impl Solve {
         let display = display(subject.mesh, exposure);
         let lights = subject.solved.map_or(&[][..], |solved| &solved.surfaces.lights);
         for (view, paths) in self.picture.views(&self.image)? {
-            let picture = self.picture.picture(view, subject, (camera, lights), |done| {
+            let mut picture = self.picture.picture(view, subject, (camera, lights), |done| {
                 meter.advance("picture", done);
                 interrupt.flow()
             });
+            picture.unfinished |= !interrupt.is_whole();
             for path in paths {
                 render::save(&picture, path, &display)?;
             }
@@ -307,10 +348,13 @@ fn surfaces(scene: &mut Scene, meter: &mut Meter) -> Surfaces {
     surfaces
 }
 
-fn tell_if_full(solution: &Solution, meter: &Meter) {
+/// Refuses a solution without light, and tells if it is coarser than was asked for.
+fn judge(solution: &Solution, meter: &Meter) -> Result<(), Error> {
+    refuse_darkness(solution)?;
     if solution.mesh.is_full() {
         meter.tell("note: memory has ended the refinement; --max-memory allows more");
     }
+    Ok(())
 }
 
 /// Of the light that could arrive, a smaller share is rounding: what a sky sends through the edges of a closed room.

@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 use std::path::PathBuf;
 
-use radiosity::colour::Rgb;
+use radiosity::colour::{LUMENS_PER_WATT, Rgb, luminance};
 use radiosity::mesh::Divided;
 use radiosity::reconstruct::{Angles, TriMesh};
 use radiosity::solver::{Energy, Stop};
@@ -56,6 +56,9 @@ pub(crate) struct Balance {
 #[derive(Debug, Serialize)]
 pub(crate) struct Outcome {
     pub(crate) scene: PathBuf,
+    /// Whether people want powers in lumens.
+    #[serde(skip)]
+    pub(crate) photometric: bool,
     #[serde(flatten)]
     pub(crate) summary: Summary,
     /// Of the grid, if there is one.
@@ -123,7 +126,11 @@ impl Display for Outcome {
         writeln!(f, "smallest angle {smallest:.1}°, {:.1} % below 10°", 100.0 * below_ten)?;
         writeln!(f, "shots      {}", s.shots)?;
         writeln!(f, "hemicubes  patches {}, vertices {}", hemicubes.patches, hemicubes.vertices)?;
-        write!(f, "{}", s.energy)?;
+        if self.photometric {
+            s.energy.write_lumens(f)?;
+        } else {
+            write!(f, "{}", s.energy)?;
+        }
         if let Some(grid) = &self.grid {
             write!(f, "\n{grid}")?;
         }
@@ -136,17 +143,31 @@ impl Display for Outcome {
     }
 }
 
-impl Display for Balance {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let rows = [
+impl Balance {
+    fn rows(&self) -> [(&'static str, [f64; 3]); 5] {
+        [
             ("emitted", self.emitted),
             ("= absorbed", self.absorbed),
             ("+ on backs", self.on_backs),
             ("+ escaped", self.escaped),
             ("+ unshot", self.unshot),
-        ];
+        ]
+    }
+
+    /// The same in lumens, for those who have given their lamps so.
+    fn write_lumens(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        writeln!(f, "flux, lm")?;
+        for (name, power) in self.rows() {
+            writeln!(f, "{name:<10} {:>11.1}", luminance(power.into()) * LUMENS_PER_WATT)?;
+        }
+        write!(f, "imbalance  {:.3} %", 100.0 * self.imbalance)
+    }
+}
+
+impl Display for Balance {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "{:<10} {:>11} {:>11} {:>11}", "power, W", "red", "green", "blue")?;
-        for (name, [red, green, blue]) in rows {
+        for (name, [red, green, blue]) in self.rows() {
             writeln!(f, "{name:<10} {red:>11.5} {green:>11.5} {blue:>11.5}")?;
         }
         write!(f, "imbalance  {:.3} %", 100.0 * self.imbalance)

@@ -28,6 +28,8 @@ pub struct Progress {
     pub phase: String,
     /// How much of it is done, 0..=1.
     pub done: f64,
+    /// Runs that are done: before there is one, nothing can be told.
+    pub runs: usize,
 }
 
 /// Uniform and adaptive meshes of one scene, measured.
@@ -48,7 +50,7 @@ pub struct Comparison {
     pub shown: Option<[usize; 2]>,
     /// Across the edge of a shadow, with what the runs to be shown make of it; `None` without such an edge.
     pub profile: Option<(Profile, [Trace; 2])>,
-    /// True if it was stopped before all runs were done.
+    /// True if it was stopped before all was done.
     pub interrupted: bool,
 }
 
@@ -65,9 +67,10 @@ pub fn compare(
     let start = Instant::now();
     let surfaces = surfaces_of(scene);
     let seconds = start.elapsed().as_secs_f64();
+    surfaces.check()?;
     plan.validate()?;
     plan.validate_for(&surfaces)?;
-    let mut observer = Observer { observe, flow: ControlFlow::Continue(()) };
+    let mut observer = Observer { observe, flow: ControlFlow::Continue(()), runs: 0 };
     let reference = match &plan.reference {
         Source::File(path) => Reference::load(path, surfaces.extent)?,
         Source::Traced(effort) => {
@@ -86,9 +89,9 @@ pub fn compare(
         adaptive(a).cmp(&adaptive(b)).then(b.knob.total_cmp(&a.knob))
     });
     let shown = shown(&runs);
+    let profile = shown
+        .and_then(|shown| profile((&surfaces, &reference), plan, (&runs, shown), &mut observer));
     let interrupted = observer.flow.is_break();
-    let _ = observer.tell("profile", 0.0);
-    let profile = shown.and_then(|shown| profile((&surfaces, &reference), plan, &runs, shown));
     let verdict = Verdict::new(&runs, plan.error);
     Ok(Comparison { verdict, profile, shown, interrupted, surfaces, reference, runs })
 }
@@ -97,11 +100,12 @@ pub fn compare(
 struct Observer<'a> {
     observe: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>,
     flow: ControlFlow<()>,
+    runs: usize,
 }
 
 impl Observer<'_> {
     fn tell(&mut self, phase: &str, done: f64) -> ControlFlow<()> {
-        let told = (self.observe)(&Progress { phase: phase.to_owned(), done });
+        let told = (self.observe)(&Progress { phase: phase.to_owned(), done, runs: self.runs });
         if told.is_break() {
             self.flow = told;
         }
@@ -127,7 +131,8 @@ impl Series<'_> {
         let counts = || self.runs.iter().map(|run| run.elements);
         let range = [counts().min().unwrap_or(0), counts().max().unwrap_or(0)];
         if observer.flow.is_continue() {
-            for size in self.plan.sizes(self.surfaces, range) {
+            let mut is_over = || observer.tell("sizes", 0.0).is_break();
+            for size in self.plan.sizes(self.surfaces, range, &mut is_over) {
                 self.add((Family::Uniform, size), observer)?;
             }
         }
@@ -148,6 +153,7 @@ impl Series<'_> {
             observer.tell(&name, done)
         })?;
         self.runs.extend(run);
+        observer.runs = self.runs.len();
         self.spare_memory();
         Ok(())
     }
@@ -182,13 +188,14 @@ fn shown(runs: &[Run]) -> Option<[usize; 2]> {
 fn profile(
     (surfaces, reference): (&Surfaces, &Reference),
     plan: &Plan,
-    runs: &[Run],
-    shown: [usize; 2],
+    (runs, shown): (&[Run], [usize; 2]),
+    observer: &mut Observer<'_>,
 ) -> Option<(Profile, [Trace; 2])> {
-    if plan.profile_paths == 0 {
+    if plan.profile_paths == 0 || observer.flow.is_break() {
         return None;
     }
-    let profile = Profile::find(surfaces, reference, plan.profile_paths)?;
+    let observe = &mut |done| observer.tell("profile", done);
+    let profile = Profile::find(surfaces, reference, plan.profile_paths, observe)?;
     let trace = |run: usize| Some(profile.trace(surfaces, runs[run].lit.as_ref()?));
     let [uniform, adaptive] = shown.map(trace);
     let traces = [uniform?, adaptive?];

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::dice::mixed;
 use super::sampler::{Found, Sampler, Site};
 use crate::colour::Rgb;
+use crate::watch::watched;
 
 /// Independent rounds; their spread tells the error.
 pub(super) const ROUNDS: usize = 16;
@@ -73,36 +74,51 @@ impl<'a> Estimate<'a> {
     }
 
     /// Lengthens the rounds until `effort` is spent, the noise is small or `observe`, told of the share done,
-    /// breaks off; but once in any case.
+    /// breaks off. If that is before they have been lengthened once, nothing is known.
     pub(super) fn run(&mut self, effort: &Effort, observe: &mut dyn FnMut(f64) -> ControlFlow<()>) {
-        let start = Instant::now();
+        let (start, mut told) = (Instant::now(), 0.0);
         while self.paths < MOST_PATHS {
             let more = self.paths.clamp(PATHS[0], PATHS[1]);
-            self.lengthen(more);
+            if self.lengthen(more, || observe(told)).is_break() {
+                return;
+            }
             let (spent, noise) = (start.elapsed(), self.noise());
             // Errors fall as one over the square root of the number of paths.
             let by_noise = (effort.noise / noise.max(f64::MIN_POSITIVE)).powi(2);
             let by_time = spent.as_secs_f64() / effort.budget.as_secs_f64().max(1e-9);
-            let done = by_noise.max(by_time);
-            if observe(done.min(1.0)).is_break() || done >= 1.0 {
+            told = by_noise.max(by_time).min(1.0);
+            if observe(told).is_break() || told >= 1.0 {
                 return;
             }
         }
     }
 
-    /// As many paths more in each round.
-    pub(super) fn lengthen(&mut self, paths: u32) {
+    /// As many paths more in each round; none, if `go_on` breaks off before all are done.
+    pub(super) fn lengthen(
+        &mut self,
+        paths: u32,
+        go_on: impl FnMut() -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
         let (sampler, seed) = (self.sampler, self.seed);
         let range = self.paths..self.paths + paths;
-        self.sums.par_iter_mut().zip(self.sites).enumerate().for_each(|(number, (sums, site))| {
+        let longer = |(number, (sums, site)): (usize, (&Sums, &Site))| {
+            let mut sums = *sums;
             for (round, sum) in sums.rounds.iter_mut().enumerate() {
                 let seed = mixed(&[seed, round as u64, number as u64]);
                 let Found { indirect, escaped } = sampler.indirect(site, range.clone(), seed);
                 *sum += indirect;
                 sums.escaped += escaped;
             }
-        });
-        self.paths += paths;
+            sums
+        };
+        let all = self.sums.par_iter().zip(self.sites).enumerate();
+        let lengthened: Option<Vec<Sums>> = watched(
+            |enough| all.map(|site| (!enough.is_said()).then(|| longer(site))).collect(),
+            go_on,
+        );
+        let Some(sums) = lengthened else { return ControlFlow::Break(()) };
+        (self.sums, self.paths) = (sums, self.paths + paths);
+        ControlFlow::Continue(())
     }
 
     /// Radiosity by reflection at a place, and its standard error, W/m².
@@ -161,7 +177,7 @@ mod tests {
         };
         let sites: Vec<Site> = (0..6).flat_map(inside).collect();
         let mut estimate = Estimate::new(&sampler, &sites, 1);
-        estimate.lengthen(64);
+        let _ = estimate.lengthen(64, || ControlFlow::Continue(()));
         for number in 0..sites.len() {
             // B = E / (1 - ρ) = 2, of which 1 is emitted.
             let [radiosity, error] = estimate.radiosity(number);
@@ -178,7 +194,7 @@ mod tests {
             area_sites(&surfaces, 300, 1).into_iter().map(|placed| placed.site).collect();
         let found = [1, 2].map(|seed| {
             let mut estimate = Estimate::new(&sampler, &sites, seed);
-            estimate.lengthen(32);
+            let _ = estimate.lengthen(32, || ControlFlow::Continue(()));
             estimate
         });
         let (mut squares, mut expected) = (0.0, 0.0);

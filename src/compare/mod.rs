@@ -33,7 +33,7 @@ pub use estimate::Effort;
 pub use locate::Locator;
 pub use plan::{Plan, Source};
 pub use profile::{Profile, Trace};
-pub use record::{check_writable, save};
+pub use record::{check_writable, figures, save};
 pub use reference::{Origin, Point, Reference, Set};
 pub use report::{Account, report};
 pub use run::{Family, Lit, Run, Seconds};

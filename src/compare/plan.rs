@@ -75,8 +75,13 @@ impl Plan {
     }
 
     /// The sizes of uniform meshes, from coarse to fine, beside adaptive ones of so many elements: the fewest
-    /// and the most.
-    pub fn sizes(&self, surfaces: &Surfaces, [fewest, most]: [usize; 2]) -> Vec<f64> {
+    /// and the most. No finer ones are tried once it `is_over`.
+    pub fn sizes(
+        &self,
+        surfaces: &Surfaces,
+        [fewest, most]: [usize; 2],
+        is_over: &mut dyn FnMut() -> bool,
+    ) -> Vec<f64> {
         if let Some(sizes) = &self.uniform {
             return sizes.clone();
         }
@@ -95,7 +100,8 @@ impl Plan {
                 sizes.push(size);
             }
             // The next would have about four times as many: nearer to the goal, by ratio, if below half of it.
-            if (2 * elements > goal && sizes.len() >= COUNT[0]) || size < 1e-6 * surfaces.extent {
+            let is_fine = 2 * elements > goal && sizes.len() >= COUNT[0];
+            if is_fine || size < 1e-6 * surfaces.extent || is_over() {
                 break;
             }
             size /= 2.0;

@@ -1,7 +1,8 @@
 //! Radiosity along a line across the edge of a shadow: what every mesh makes of it.
 
+use std::ops::ControlFlow;
+
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::estimate::{Estimate, ROUNDS};
@@ -12,6 +13,7 @@ use super::sampler::{Sampler, Site};
 use crate::colour::luminance;
 use crate::surface::polygon::{Line, contains, edges};
 use crate::surface::{Surface, Surfaces};
+use crate::watch::in_batches;
 
 /// Places along the line.
 const PLACES: usize = 65;
@@ -30,6 +32,9 @@ const LARGE: f64 = 0.05;
 
 /// Other random numbers than the reference's by default.
 const PROFILE_SEED: u64 = 2;
+
+/// Share of the work that is done once the line is found.
+const FOUND: f64 = 0.5;
 
 /// Step at which an edge must be smooth, as a share of the extent.
 const SCALE: f64 = 2e-3;
@@ -92,10 +97,16 @@ struct Transect {
 }
 
 impl Profile {
-    /// Across the smooth edge of a shadow on a large surface at which most light goes; `None` if there is none.
-    pub fn find(surfaces: &Surfaces, reference: &Reference, paths: usize) -> Option<Self> {
+    /// Across the smooth edge of a shadow on a large surface at which most light goes; `None` if there is none, or
+    /// `observe`, told of the share done, breaks off.
+    pub fn find(
+        surfaces: &Surfaces,
+        reference: &Reference,
+        paths: usize,
+        observe: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Option<Self> {
         let sampler = Sampler::new(surfaces);
-        let Transect { site, penumbra, ends, .. } = best(&sampler, reference)?;
+        let Transect { site, penumbra, ends, .. } = best(&sampler, reference, observe)?;
         let surface = &surfaces.list[site.surface];
         let length = ends[0].distance(ends[1]);
         let at: Vec<f64> = (0..PLACES).map(|k| length * k as f64 / (PLACES - 1) as f64).collect();
@@ -105,7 +116,8 @@ impl Profile {
         };
         let sites: Vec<Site> = at.iter().map(site_at).collect();
         let mut estimate = Estimate::new(&sampler, &sites, PROFILE_SEED);
-        estimate.lengthen((paths / ROUNDS).max(1) as u32);
+        let paths = (paths / ROUNDS).max(1) as u32;
+        estimate.lengthen(paths, || observe(FOUND)).continue_value()?;
         let found: Vec<[f64; 2]> =
             (0..PLACES).map(|k| estimate.radiosity(k).map(luminance)).collect();
         Some(Self {
@@ -149,17 +161,25 @@ impl Profile {
 }
 
 /// Of all lines across soft edges at the places of the shadow set, the one along which most light goes.
-fn best(sampler: &Sampler<'_>, reference: &Reference) -> Option<Transect> {
+fn best(
+    sampler: &Sampler<'_>,
+    reference: &Reference,
+    observe: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Option<Transect> {
     let surfaces = sampler.surfaces;
     let largest = surfaces.list.iter().map(Surface::area).fold(0.0, f64::max);
     let shadow: Vec<_> = reference.points.iter().filter(|point| point.set == Set::Shadow).collect();
-    let transect = |point: &&Point| {
+    let transect = |(): &mut (), point: &&Point| {
         let surface = surface_at(surfaces, point.place, point.normal)?;
         let large = surfaces.list[surface].area() >= LARGE * largest;
         let site = Site { surface, place: point.place, normal: point.normal };
         large.then(|| transect(sampler, &site)).flatten()
     };
-    let found: Vec<Option<Transect>> = shadow.par_iter().map(transect).collect();
+    let found: Vec<Option<Transect>> =
+        in_batches(&shadow, |_| (), transect, |done| observe(FOUND * done));
+    if found.len() < shadow.len() {
+        return None;
+    }
     found
         .into_iter()
         .flatten()

@@ -56,7 +56,7 @@ pub fn save(comparison: &Comparison, about: &Value, path: &Path) -> Result<()> {
 }
 
 /// All figures of a comparison, as [`save`] writes them.
-pub(super) fn figures(comparison: &Comparison, about: &Value) -> Value {
+pub fn figures(comparison: &Comparison, about: &Value) -> Value {
     serde_json::to_value(Record::new(comparison, about)).unwrap_or_default()
 }
 

@@ -87,14 +87,14 @@ pub struct Reference {
 
 impl Reference {
     /// Direct light exactly, reflected light by paths, at places drawn from the scene; `observe` is told how
-    /// much is done, 0..=1, and may break off: then what has been found so far will do.
+    /// much is done, 0..=1, and may break off: then what has been found so far will do, if there is any.
     ///
     /// B = E + ρ (direct + indirect); indirect = the mean, over directions as many as their cosine, of what
     /// leaves by reflection the places that they meet. The error is that of the mean of the rounds. Where direct
     /// light has too much in its way to be exact, its own small error is not part of it.
     ///
     /// # Errors
-    /// When no place of the scene reflects light.
+    /// When no place of the scene reflects light, or it is broken off before anything has been found.
     pub fn trace(
         surfaces: &Surfaces,
         effort: &Effort,
@@ -105,6 +105,9 @@ impl Reference {
         let (sites, weights) = places(&sampler, effort);
         let mut estimate = Estimate::new(&sampler, &sites, effort.seed);
         estimate.run(effort, observe);
+        if estimate.paths == 0 {
+            return Err(Error::Scene("stopped before there was a reference".to_owned()));
+        }
         let points: Vec<Point> = (0..sites.len())
             .filter(|&k| !estimate.is_dark(k))
             .map(|k| {

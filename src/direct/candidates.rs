@@ -48,7 +48,7 @@ impl Candidates {
         lamps: &Lamps,
         occluders: &Occluders,
         mesh: &Mesh,
-        observe: impl FnMut(f64) -> ControlFlow<()>,
+        mut observe: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Self {
         let sizes = mesh.patches.iter().map(|patch| bounds(&[patch]));
         let longest = sizes.map(|(low, high)| low.distance(high)).fold(0.0, f64::max);
@@ -60,10 +60,13 @@ impl Candidates {
             .collect();
         let mut parts = Vec::new();
         if !mesh.patches.is_empty() {
-            finder.divide(0, all, &mut parts);
+            match observe(0.0) {
+                ControlFlow::Continue(()) => finder.divide(0, all, &mut parts),
+                ControlFlow::Break(()) => parts.push((0, all)),
+            }
         }
         let descend = |(): &mut (), (node, around): &Part| finder.descend(*node, around);
-        let mut found: Vec<Vec<Region>> = in_batches(&parts, || (), descend, observe);
+        let mut found: Vec<Vec<Region>> = in_batches(&parts, |_| (), descend, observe);
         let rest = parts.drain(found.len()..);
         found.extend(rest.map(|(node, around)| vec![(finder.patches_under(node), around)]));
         let mut of = vec![0; mesh.patches.len()];

@@ -21,11 +21,12 @@ mod obj;
 mod picture;
 mod ply;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
 use crate::file;
 use crate::reconstruct::TriMesh;
+use crate::scene::Texture;
 use crate::tone::Exposure;
 
 pub use factors::{FactorPatch, FactorTable, check_writable_factors, save_factors};
@@ -79,6 +80,22 @@ pub fn save(mesh: &TriMesh, path: &Path, stamp: &Stamp) -> Result<()> {
 pub fn check_writable(path: &Path) -> Result<()> {
     Format::of(path)?;
     file::probe(path)
+}
+
+/// The files that [`save`] writes beside `path` if that is an OBJ: its materials and, of these textures, its pictures.
+pub fn beside(path: &Path, textures: &[Texture]) -> Vec<PathBuf> {
+    match Format::of(path) {
+        Ok(Format::Obj) => obj::beside(path, textures),
+        _ => Vec::new(),
+    }
+}
+
+/// Those of [`beside`] that are there already, and were not written with an OBJ of that name: somebody else's.
+pub fn strangers(path: &Path, textures: &[Texture]) -> Vec<PathBuf> {
+    match Format::of(path) {
+        Ok(Format::Obj) => obj::strangers(path, textures),
+        _ => Vec::new(),
+    }
 }
 
 #[derive(Clone, Copy)]

@@ -2,13 +2,40 @@
 
 use std::collections::BTreeSet;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::group::{self, Group};
 use super::look::{Look, coded, singles};
 use super::picture::{self, Coding};
 use crate::error::{Error, Result};
 use crate::file;
+use crate::scene::Texture;
+
+/// The first line of a file of materials, by which it is known again.
+const MARK: &str = "# materials of an OBJ by radiosity";
+
+/// The files that are written beside the OBJ at `path` whose pictures are among `textures`.
+pub(super) fn beside(path: &Path, textures: &[Texture]) -> Vec<PathBuf> {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let picture = |(number, texture)| path.with_file_name(picture_name(&stem, number, texture));
+    let pictures = textures.iter().enumerate().map(picture);
+    [path.with_extension("mtl")].into_iter().chain(pictures).collect()
+}
+
+/// Those of them that are there already, and that were not written beside an earlier OBJ of that name.
+pub(super) fn strangers(path: &Path, textures: &[Texture]) -> Vec<PathBuf> {
+    let known = std::fs::read(path.with_extension("mtl")).unwrap_or_default();
+    let known = String::from_utf8_lossy(&known);
+    let is_own = |file: &PathBuf| {
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        let is_used = || known.lines().any(|line| line.strip_prefix(MAP) == Some(&*name));
+        known.starts_with(MARK) && (file.extension().is_some_and(|end| end == "mtl") || is_used())
+    };
+    beside(path, textures).into_iter().filter(|file| file.exists() && !is_own(file)).collect()
+}
+
+/// What comes before the name of a material's picture.
+const MAP: &str = "map_Kd ";
 
 /// Writes the OBJ at `path`, and beside it a file of materials and the pictures in use.
 pub(crate) fn save(look: &Look, path: &Path) -> Result<()> {
@@ -17,14 +44,15 @@ pub(crate) fn save(look: &Look, path: &Path) -> Result<()> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let textures: BTreeSet<u32> = groups.iter().filter_map(|group| group.texture).collect();
     for &texture in &textures {
-        let target = path.with_file_name(picture_name(look, &stem, texture));
+        let target = path.with_file_name(name_of(look, &stem, texture));
         let bytes =
             picture::encoded(&look.mesh.textures[texture as usize]).map_err(Error::io(&target))?;
         file::replace(&target, |out| out.write_all(&bytes))?;
     }
     file::replace(&path.with_extension("mtl"), |out| {
+        writeln!(out, "{MARK}")?;
         groups.iter().zip(&names).try_for_each(|(group, name)| {
-            let picture = group.texture.map(|texture| picture_name(look, &stem, texture));
+            let picture = group.texture.map(|texture| name_of(look, &stem, texture));
             write_material(name, picture.as_deref(), out)
         })
     })?;
@@ -96,14 +124,17 @@ impl<W: Write> Body<'_, W> {
 fn write_material(name: &str, picture: Option<&str>, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "newmtl {name}\nKd 1 1 1\nillum 0")?;
     match picture {
-        Some(picture) => writeln!(out, "map_Kd {picture}\n"),
+        Some(picture) => writeln!(out, "{MAP}{picture}\n"),
         None => writeln!(out),
     }
 }
 
-fn picture_name(look: &Look, stem: &str, texture: u32) -> String {
-    let ending = Coding::of(&look.mesh.textures[texture as usize]).ending();
-    format!("{stem}-{texture}.{ending}")
+fn name_of(look: &Look, stem: &str, texture: u32) -> String {
+    picture_name(stem, texture as usize, &look.mesh.textures[texture as usize])
+}
+
+fn picture_name(stem: &str, number: usize, texture: &Texture) -> String {
+    format!("{stem}-{number}.{}", Coding::of(texture).ending())
 }
 
 /// Names that an MTL can hold: without spaces, and each used once.

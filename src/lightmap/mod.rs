@@ -70,6 +70,7 @@ impl Atlas {
             let (least, most) = (SIZES.start(), SIZES.end());
             return Err(wrong(format!("a map has {least} to {most} texels along a side")));
         }
+        surfaces.check()?;
         let sheets = coarse::sheets(surfaces);
         let groups = grow::groups(surfaces, &sheets);
         let mut charts: Vec<Chart> =

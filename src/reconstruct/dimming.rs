@@ -9,6 +9,9 @@ use crate::error::{Error, Result};
 use crate::scene::named;
 use crate::surface::{LightGroup, StrengthUnit};
 
+/// Stronger lights, in any unit, are mistakes.
+const BRIGHTEST: f64 = 1e12;
+
 /// What becomes of a light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Dimming {
@@ -88,7 +91,10 @@ impl Dimming {
         };
         let told = |what| format!("light \"{}\": {what}; it is {group}", group.name);
         let strength = strength.map_err(told)?;
-        if strength.is_finite() { Ok(strength) } else { Err(told("this is beyond all numbers")) }
+        if strength.max_element() <= BRIGHTEST {
+            return Ok(strength);
+        }
+        Err(told("this is brighter than anything that shines"))
     }
 }
 

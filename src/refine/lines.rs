@@ -53,12 +53,13 @@ struct Chord {
     least_part: f64,
 }
 
-/// The discontinuity lines of a patch, as far as they carry more than the oracle allows, by direct light.
+/// The discontinuity lines of a patch, as far as they carry more than the oracle allows, by direct light; those found
+/// by then, once there has been `enough`.
 pub fn discontinuities(
     (surfaces, mesh): (&Surfaces, &Mesh),
     patch: PatchId,
-    light: &PatchLight,
-    oracle: &Oracle,
+    (light, oracle): (&PatchLight, &Oracle),
+    enough: impl Fn() -> bool,
 ) -> Vec<Discontinuity> {
     let Patch { surface, reflectance, corners, area, root, .. } = &mesh[patch];
     if reflectance.max_element() <= 0.0 {
@@ -87,7 +88,8 @@ pub fn discontinuities(
         weigh(event.segment, &borders, step, by)
     };
     let matters = |line: &Discontinuity| line.error(area.sqrt()) > allowed;
-    events.into_iter().filter_map(weighed).filter(matters).collect()
+    let going_on = events.into_iter().take_while(|_| !enough());
+    going_on.filter_map(weighed).filter(matters).collect()
 }
 
 /// Leaves those events that may carry most, in their order.

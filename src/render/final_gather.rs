@@ -1,5 +1,7 @@
 //! Direct light at the places that a picture shows, not only at vertices.
 
+use std::ops::ControlFlow;
+
 use glam::DVec3;
 
 use crate::colour::Rgb;
@@ -17,9 +19,21 @@ pub(super) struct FinalGather<'a> {
 }
 
 impl<'a> FinalGather<'a> {
-    pub(super) fn new(surfaces: &'a Surfaces, mesh: &'a Mesh) -> Self {
+    /// What each patch sees of the lamps takes a while; `None` if `observe` has broken off by then.
+    pub(super) fn new(
+        surfaces: &'a Surfaces,
+        mesh: &'a Mesh,
+        observe: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Option<Self> {
+        let mut flow = observe(0.0);
         let (lamps, occluders) = (Lamps::new(surfaces, mesh), Occluders::new(surfaces));
-        Self { surfaces, mesh, light: PatchLight::new(lamps, occluders, mesh) }
+        let light = PatchLight::observed(lamps, occluders, mesh, |_| {
+            if flow.is_continue() {
+                flow = observe(0.0);
+            }
+            flow
+        });
+        flow.is_continue().then_some(Self { surfaces, mesh, light })
     }
 
     /// Irradiance straight from emitters, W/m², at a place on a leaf.

@@ -125,7 +125,8 @@ pub fn render_solved(
 ) -> Picture {
     let mesh = subject.mesh;
     let gather = options.final_gather.then_some(()).and(subject.solved.as_ref());
-    let gather = gather.map(|solved| FinalGather::new(solved.surfaces, &solved.solution.mesh));
+    let gather = gather
+        .and_then(|solved| FinalGather::new(solved.surfaces, &solved.solution.mesh, &mut observe));
     let shade = Shade::new(subject, options.view);
     let key = shade.key.clone();
     let background = if options.view.shows_radiance() { options.background } else { Rgb::ZERO };

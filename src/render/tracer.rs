@@ -16,7 +16,7 @@ use super::rays::Rays;
 use super::shade::{Gather, Shade};
 use crate::colour::Rgb;
 use crate::scene::Camera;
-use crate::watch::Pace;
+use crate::watch::{Enough, Pace, watched};
 
 /// Samples of a pixel and of those beside it may differ by this share of their mean before the pixel
 /// gets all of its samples: about three steps of an 8-bit picture.
@@ -226,12 +226,20 @@ impl<'a> Work<'a, '_> {
         let mut pace = Pace::new();
         while found.len() < pixels.len() {
             let done = found.len() as f64 / pixels.len() as f64;
-            if (self.observe)(part.start + done * (part.end - part.start)).is_break() {
+            let done = part.start + done * (part.end - part.start);
+            if (self.observe)(done).is_break() {
                 (self.gather, self.is_over) = (None, true);
             }
             let (gather, is_over, start) = (self.gather, self.is_over, Instant::now());
             let batch = pace.batch(&pixels[found.len()..]);
-            found.par_extend(batch.par_iter().map(|&index| find(index, gather, is_over)));
+            let each = |enough: &Enough| -> Vec<T> {
+                let one = |&index: &usize| match enough.is_said() {
+                    true => find(index, None, true),
+                    false => find(index, gather, is_over),
+                };
+                batch.par_iter().map(one).collect()
+            };
+            found.extend(watched(each, || (self.observe)(done)));
             pace.learn(batch.len(), start.elapsed());
         }
         found

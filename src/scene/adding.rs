@@ -21,12 +21,21 @@ pub enum Amount {
 
 impl Amount {
     /// Radiance, W/(m² sr), of Lambertian surfaces of this area, m²: Φ = π L A.
-    pub fn radiance(self, area: f64) -> Rgb {
+    ///
+    /// # Errors
+    /// When it is beyond all that shines, some 10⁵ suns.
+    pub fn radiance(self, area: f64) -> std::result::Result<Rgb, String> {
         let radiance = match self {
             Self::Radiance(radiance) => radiance,
             Self::Flux(lumens) => Rgb::splat(lumens / (LUMENS_PER_WATT * PI * area)),
         };
-        tamed(radiance, MAX_RADIANCE)
+        if tamed(radiance, MAX_RADIANCE) == radiance {
+            return Ok(radiance);
+        }
+        let most = radiance.max_element();
+        Err(format!(
+            "a radiance of {most:e} W/(m² sr) is more than the {MAX_RADIANCE:e} that may be"
+        ))
     }
 }
 
@@ -91,9 +100,10 @@ impl Scene {
             let name = &self.materials[materials[0]].name;
             return Err(format!("material \"{name}\" is on no face that could emit lumens"));
         }
+        let radiance = amount.radiance(area)?;
         for &number in materials {
             let material = &mut self.materials[number];
-            (material.emission, material.emission_texture) = (amount.radiance(area), None);
+            (material.emission, material.emission_texture) = (radiance, None);
         }
         Ok(())
     }
@@ -119,6 +129,7 @@ impl Scene {
         }
         let normal = lamp.direction.try_normalize();
         let normal = normal.ok_or_else(|| wrong("the direction has no length"))?;
+        let emission = lamp.amount.radiance(width * depth).map_err(|message| wrong(&message))?;
         let number = 1 + self.objects.iter().filter(|name| name.starts_with(AREA_LIGHT)).count();
         let name = format!("{AREA_LIGHT} {number}");
         let first = self.positions.len() as u32;
@@ -133,7 +144,7 @@ impl Scene {
         self.materials.push(Material {
             name,
             reflectance: Rgb::ZERO,
-            emission: lamp.amount.radiance(width * depth),
+            emission,
             ..Material::default()
         });
         Ok(())

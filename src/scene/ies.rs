@@ -29,6 +29,7 @@ impl Scene {
     /// When the file cannot be read or is not what is supported; the message has the line.
     pub fn add_luminaire(&mut self, path: &Path, position: DVec3, rotation: f64) -> Result<()> {
         let bytes = std::fs::read(path).map_err(Error::io(path))?;
+        self.files.push(path.to_owned());
         // Names of makers may be in any encoding; figures are in all of them.
         let text = String::from_utf8_lossy(&bytes);
         let text = text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");

@@ -12,7 +12,7 @@ use crate::colour::Rgb;
 use crate::error::{Error, Result};
 
 /// Coordinates beyond this are taken for a wrong unit or a broken file, m.
-const MAX_COORDINATE: f64 = 1e9;
+pub(super) const MAX_COORDINATE: f64 = 1e9;
 
 /// Radiance beyond this is cut, W/(m² sr): about 10^5 suns, and products of it stay finite.
 pub(crate) const MAX_RADIANCE: f64 = 1e12;
@@ -73,6 +73,11 @@ fn read(path: &Path, options: &LoadOptions) -> Result<Scene> {
         "gltf" | "glb" if options.up == Up::Z => {
             let message = "glTF files have Y up by definition; only OBJ files may have Z up";
             Err(Error::Setting { name: "up", message: message.to_owned() })
+        }
+        "gltf" | "glb" if options.metres_per_unit != 1.0 => {
+            let message =
+                "glTF files are in metres by definition; only OBJ files may have another unit";
+            Err(Error::Setting { name: "units", message: message.to_owned() })
         }
         "gltf" | "glb" => gltf::read(path),
         _ => Err(Error::UnknownFormat { path: path.to_owned(), known: ".obj, .gltf, .glb" }),

@@ -5,6 +5,7 @@
 
 mod adding;
 pub(crate) mod boxes;
+mod build;
 mod camera;
 mod corners;
 mod daylight;
@@ -27,6 +28,8 @@ mod texture;
 mod up;
 mod weld;
 
+use std::path::PathBuf;
+
 use glam::{DVec2, DVec3, Vec3};
 use smallvec::SmallVec;
 
@@ -47,6 +50,9 @@ pub(crate) use texture::decode;
 pub use up::Up;
 
 /// A scene of polygons, in metres.
+///
+/// One that is made in code is checked by [`Scene::build`]; what is not, and cannot be looked at, has no surfaces, and
+/// lighting it is an error that says why.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// Corners of the faces, m.
@@ -65,6 +71,8 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// Repairs and warnings, a line each, for the user to read.
     pub notes: Vec<String>,
+    /// The files that all this was read from, so that nothing is written in their place.
+    pub files: Vec<PathBuf>,
 }
 
 /// A planar polygon; its per-corner lists are empty or as long as `vertices`.
@@ -87,7 +95,7 @@ pub struct Face {
 impl Face {
     /// Where its corners are, m.
     pub(crate) fn corners(&self, positions: &[DVec3]) -> SmallVec<[DVec3; 4]> {
-        self.vertices.iter().map(|&vertex| positions[vertex as usize]).collect()
+        self.vertices.iter().filter_map(|&vertex| positions.get(vertex as usize)).copied().collect()
     }
 }
 
@@ -120,8 +128,8 @@ impl Scene {
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let corners = self.faces.iter().flat_map(|face| &face.vertices);
         corners
-            .map(|&vertex| self.positions[vertex as usize])
-            .map(|p| (p, p))
+            .filter_map(|&vertex| self.positions.get(vertex as usize))
+            .map(|&p| (p, p))
             .reduce(|(low, high), (p, _)| (low.min(p), high.max(p)))
     }
 
@@ -140,8 +148,8 @@ impl Scene {
     /// Indices of the faces whose material emits light.
     pub fn emitters(&self) -> impl Iterator<Item = usize> {
         self.faces.iter().enumerate().filter_map(|(index, face)| {
-            let emission = self.materials[face.material as usize].emission;
-            (emission.max_element() > 0.0).then_some(index)
+            let material = self.materials.get(face.material as usize)?;
+            (material.emission.max_element() > 0.0).then_some(index)
         })
     }
 

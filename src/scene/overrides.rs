@@ -30,6 +30,7 @@ impl Scene {
     /// When the file cannot be read or says anything else; the message has the line.
     pub fn override_materials(&mut self, path: &Path) -> Result<()> {
         let text = std::fs::read_to_string(path).map_err(Error::io(path))?;
+        self.files.push(path.to_owned());
         self.override_by(&text).map_err(|(start, message)| {
             let line = 1 + text.bytes().take(start).filter(|&byte| byte == b'\n').count();
             Error::at_line(path, line, message)

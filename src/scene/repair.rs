@@ -18,7 +18,7 @@ use super::weld::weld_rounded;
 use super::{Face, Scene, junctions};
 
 /// Faces of less area, as a share of their longest edge squared, are dropped.
-const MIN_AREA: f64 = 1e-12;
+pub(super) const MIN_AREA: f64 = 1e-12;
 
 /// Faces of less are told.
 const SLIVER: f64 = 5e-5;

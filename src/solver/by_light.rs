@@ -10,12 +10,12 @@ use super::direct_pass::{self, World};
 use super::groups::Groups;
 use super::interpolate::{REFLECTED, interpolate};
 use super::{
-    Checkpoint, ElementLight, Energy, Exchange, Observer, Progress, Solution, Stop, Work,
+    Checkpoint, DARK, ElementLight, Energy, Exchange, Observer, Progress, Solution, Stop, Work,
     check_reflectances, lamps_on, reflect,
 };
 use crate::colour::Rgb;
 use crate::direct::PatchLight;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::mesh::{Direct, Mesh};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
@@ -45,6 +45,8 @@ pub fn solve_by_light(
     checkpoint: &mut Checkpoint,
     mut observe: impl FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<(Solution, Vec<Solution>)> {
+    let Some((first, _)) = scenes.first() else { return Err(Error::Scene(DARK.to_owned())) };
+    first.check()?;
     settings.validate()?;
     let settings = &checkpoint.settings(settings);
     let mut observer = Observer::new(&mut observe, checkpoint);
@@ -52,7 +54,7 @@ pub fn solve_by_light(
         .iter()
         .map(|(surfaces, _)| Alone::new(surfaces, settings, &mut observer))
         .collect::<Result<_>>()?;
-    let mut mesh = Mesh::new(&scenes[0].0, settings);
+    let mut mesh = Mesh::new(first, settings);
     for alone in &mut alone {
         alone.take_over(&mut mesh);
         direct_pass::refine(alone.world(), settings, &mut mesh, &mut observer);

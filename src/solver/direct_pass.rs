@@ -19,6 +19,7 @@ use crate::refine::{self, Discontinuity, Oracle, cut, strength};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
+use crate::watch::Enough;
 
 /// Probes along each axis of an element; together with edges and centre no gap is wider than a
 /// quarter of a side.
@@ -101,14 +102,15 @@ fn owners(world: World<'_>, mesh: &Mesh, elements: &[ElementId]) -> (Owned, Vec<
 fn evaluate<T: Sync, R: Send + Serialize + DeserializeOwned>(
     light: &PatchLight,
     items: &[T],
-    work: impl Fn(&T) -> R + Sync,
+    work: impl Fn(&T) -> R + Sync + Send,
     observer: &mut Observer<'_>,
 ) -> Vec<R> {
     let lamps = light.lamps();
     let mut counts = lamps.counts();
-    let batches = observer.evaluate(items, |batch| {
+    let batches = observer.evaluate(items, |batch, enough| {
         let before = lamps.counts();
-        let results: Vec<R> = batch.par_iter().map(&work).collect();
+        let going_on = batch.par_iter().take_any_while(|_| !enough.is_said());
+        let results: Vec<R> = going_on.map(&work).collect();
         let after = lamps.counts();
         (results, [0, 1].map(|k| after[k] - before[k]))
     });
@@ -236,11 +238,10 @@ fn discontinuities(
     wanted.dedup();
     // Where there has been enough, nothing will be divided.
     let _ = observer.begin(Phase::Lines, 0.0..1.0);
-    let found = observer.map(
-        &wanted,
-        || (),
-        |(), &patch| refine::discontinuities((world.surfaces, mesh), patch, world.light, oracle),
-    );
+    let found = observer.map(&wanted, Enough::clone, |enough, &patch| {
+        let enough = || enough.is_said();
+        refine::discontinuities((world.surfaces, mesh), patch, (world.light, oracle), enough)
+    });
     let mut lines = vec![Vec::new(); mesh.patches.len()];
     for (patch, found) in wanted.into_iter().zip(found) {
         lines[patch.index()] = found;

@@ -128,11 +128,12 @@ impl<'a> Gatherer<'a> {
         dark.dedup();
         let targets = Targets::new(&mesh.patches);
         let lookouts = lookouts((self.surfaces, mesh, self.groups), self.near, &dark);
-        let lit: Vec<Vec<Vec<Gathered>>> = observer.evaluate(&lookouts, |batch| {
+        let lit: Vec<Vec<Vec<Gathered>>> = observer.evaluate(&lookouts, |batch, enough| {
             let hemicube = || Hemicube::new(&self.delta, &targets, self.occluders);
             let gather =
                 |hemicube: &mut Hemicube<'_>, lookout| self.gather(mesh, hemicube, lookout);
-            batch.par_iter().map_init(hemicube, gather).collect()
+            let going_on = batch.par_iter().take_any_while(|_| !enough.is_said());
+            going_on.map_init(hemicube, gather).collect()
         });
         self.gathered += lookouts.len();
         self.views.resize(mesh.vertices.len(), None);

@@ -175,6 +175,7 @@ pub fn solve_with(
     plan: Plan<'_>,
     mut observe: impl FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<(Solution, Vec<Solution>)> {
+    surfaces.check()?;
     settings.validate()?;
     settings.validate_for(surfaces.divided_area(), surfaces.extent)?;
     let mut nowhere = Checkpoint::default();
@@ -263,7 +264,10 @@ fn gather(
     for round in 1..=ROUNDS {
         indirect_pass::refine((settings, &oracle), &mut gatherer, mesh, observer);
         direct_pass::light_leaves(world, mesh, observer);
-        if round < ROUNDS && observer.flow.is_continue() {
+        if observer.flow.is_break() {
+            break;
+        }
+        if round < ROUNDS {
             interpolate(mesh, REFLECTED);
             gatherer.replace_sources(mesh, Sources::of_vertices(mesh));
         }

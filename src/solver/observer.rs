@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::{Checkpoint, Phase, Progress};
-use crate::watch::{Pace, in_batches};
+use crate::watch::{Enough, Pace, in_batches, watched};
 
 /// Tells a caller how far things are, and remembers if it has had enough.
 ///
@@ -47,11 +47,11 @@ impl<'a> Observer<'a> {
     }
 
     /// What `work` makes of the items, batch by batch, remembered by the checkpoint; only of the first when there
-    /// has been enough.
-    pub(super) fn evaluate<T, R: Serialize + DeserializeOwned>(
+    /// has been enough. A batch in which `work` has learnt of that is dropped.
+    pub(super) fn evaluate<T: Sync, R: Serialize + DeserializeOwned + Send>(
         &mut self,
         items: &[T],
-        work: impl Fn(&[T]) -> R,
+        work: impl Fn(&[T], &Enough) -> R + Sync + Send,
     ) -> Vec<R> {
         let mut results = Vec::new();
         let mut pace = Pace::new();
@@ -63,12 +63,21 @@ impl<'a> Observer<'a> {
                 break;
             }
             // A batch read back may be of another size than one that would be evaluated now.
-            let (count, result) = self.checkpoint.recall(|| {
-                let (batch, start) = (pace.batch(rest), Instant::now());
-                let result = work(batch);
-                pace.learn(batch.len(), start.elapsed());
-                (batch.len(), result)
-            });
+            let known: Option<(usize, R)> = self.checkpoint.next();
+            let (count, result) = match known {
+                Some(known) => known,
+                None => {
+                    let (batch, start) = (pace.batch(rest), Instant::now());
+                    let result = watched(|enough| work(batch, enough), || tell(self, done));
+                    if self.flow.is_break() {
+                        break;
+                    }
+                    pace.learn(batch.len(), start.elapsed());
+                    let evaluated = (batch.len(), result);
+                    self.checkpoint.keep(&evaluated);
+                    evaluated
+                }
+            };
             rest = &rest[count.clamp(1, rest.len())..];
             results.push(result);
         }
@@ -80,7 +89,7 @@ impl<'a> Observer<'a> {
     pub(super) fn map<T: Sync, S, R: Send>(
         &mut self,
         items: &[T],
-        tool: impl Fn() -> S + Sync + Send,
+        tool: impl Fn(&Enough) -> S + Sync + Send,
         work: impl Fn(&mut S, &T) -> R + Sync + Send,
     ) -> Vec<R> {
         let mut tell = self.teller();

@@ -15,7 +15,7 @@ use crate::refine::mean_radiosity;
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
-use crate::watch::in_batches;
+use crate::watch::{Enough, in_batches};
 
 /// What arrives at a place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -64,7 +64,7 @@ pub fn read(
     let world = (surfaces, &occluders, &groups);
     let gatherer = Gatherer::new(world, settings, light);
     let targets = Targets::new(&mesh.patches);
-    let hemicube = || Hemicube::new(gatherer.delta(), &targets, &occluders);
+    let hemicube = |_: &Enough| Hemicube::new(gatherer.delta(), &targets, &occluders);
     let numbered: Vec<_> = places.iter().copied().enumerate().collect();
     let reading = |hemicube: &mut Hemicube<'_>, &(k, (place, normal)): &(usize, _)| Reading {
         place,

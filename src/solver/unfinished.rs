@@ -59,7 +59,7 @@ fn look(
         let mut random = fastrand::Rng::with_seed(vertex.index() as u64);
         light.lamps().rough(light.occluders(), place, || random.f64())
     };
-    let found: Vec<Direct> = in_batches(vertices, || (), at, go_on);
+    let found: Vec<Direct> = in_batches(vertices, |_| (), at, go_on);
     for (vertex, direct) in vertices.iter().zip(found) {
         mesh.vertices[vertex.index()].direct = Some(direct);
     }

@@ -42,9 +42,9 @@ impl Evenness {
         }
     }
 
-    /// U₀, the darkest by the mean (EN 12464-1); 1 where there is no light.
-    pub fn uniformity(&self) -> f64 {
-        if self.mean > 0.0 { self.min / self.mean } else { 1.0 }
+    /// U₀, the darkest by the mean (EN 12464-1); none where there is no light.
+    pub fn uniformity(&self) -> Option<f64> {
+        (self.mean > 0.0).then(|| self.min / self.mean)
     }
 }
 

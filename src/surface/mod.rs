@@ -15,6 +15,7 @@ mod weld;
 use glam::{DAffine2, DMat2, DVec2, DVec3};
 
 use crate::colour::Rgb;
+use crate::error::{Error, Result};
 use crate::scene::boxes;
 use crate::scene::{Material, NamedLight, Scene, Texture};
 
@@ -45,6 +46,8 @@ pub struct Surfaces {
     pub tolerance: f64,
     /// What was done about faces in one place, a line each, for the user to read.
     pub notes: Vec<String>,
+    /// Why the scene has no surfaces, if it could not be looked at.
+    pub flaw: Option<String>,
 }
 
 /// A planar polygon of one material that reflects and emits from its front.
@@ -79,16 +82,23 @@ pub struct Surface {
 /// coordinates.
 const TOLERANCE: f64 = 2e-7;
 
-/// The surfaces of a scene and their contact lines.
+/// The surfaces of a scene and their contact lines; none, with a [flaw](Surfaces::flaw), of one that was made in code
+/// and says what cannot be.
 pub fn surfaces_of(scene: &Scene) -> Surfaces {
+    if let Some(flaw) = scene.flaw() {
+        return Surfaces::none(flaw);
+    }
     let regions = merge::regions(scene, TOLERANCE * scene.extent());
     let mut notes = Vec::new();
     let regions = overlap::without_overlaps(scene, regions, &mut notes);
     Surfaces { notes, ..with_contacts(of_regions(scene, regions)) }
 }
 
-/// The faces of a scene, each a surface of its own, and their contact lines.
+/// The faces of a scene, each a surface of its own, and their contact lines; or a [flaw](Surfaces::flaw).
 pub fn faces_of(scene: &Scene) -> Surfaces {
+    if let Some(flaw) = scene.flaw() {
+        return Surfaces::none(flaw);
+    }
     with_contacts(of_regions(scene, merge::single_faces(scene)))
 }
 
@@ -119,10 +129,27 @@ fn of_regions(scene: &Scene, regions: Vec<merge::Region>) -> Surfaces {
         extent,
         tolerance,
         notes: Vec::new(),
+        flaw: None,
     }
 }
 
 impl Surfaces {
+    /// Those of a scene that cannot be looked at.
+    fn none(flaw: String) -> Self {
+        Self { flaw: Some(flaw), ..of_regions(&Scene::default(), Vec::new()) }
+    }
+
+    /// Whether there are any.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] with the [flaw](Self::flaw) of the scene.
+    pub fn check(&self) -> Result<()> {
+        match &self.flaw {
+            Some(flaw) => Err(Error::Scene(flaw.clone())),
+            None => Ok(()),
+        }
+    }
+
     /// Opposite corners of the box around all surfaces, m; `None` without any.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let bounds = self.list.iter().map(Surface::bounds);

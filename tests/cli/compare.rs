@@ -33,7 +33,7 @@ fn a_comparison_says_who_wins_whatever_the_threads() {
     let place = Place::new();
     let scene = scene("cornell-box.obj");
     let run = |threads: &str, csv: &str| {
-        let fixed = ["compare", &scene, "--threads", threads, "--csv", csv, "--json", "a.json"];
+        let fixed = ["compare", &scene, "--threads", threads, "--csv", csv, "--figures", "a.json"];
         let outcome = place.run(&[&fixed[..], &QUICK].concat()).done();
         (outcome.stdout, std::fs::read_to_string(place.path(csv)).expect("a table is written"))
     };
@@ -60,9 +60,14 @@ fn a_comparison_says_who_wins_whatever_the_threads() {
 fn a_reference_is_used_again() {
     let place = Place::new();
     let scene = scene("facing-squares.obj");
-    let run = |more: &[&str]| place.run(&[&["compare", scene.as_str()], &QUICK[..], more].concat());
-    run(&["--save-reference", "truth.csv", "--csv", "a.csv", "-q"]).done();
-    let again = run(&["--reference", "truth.csv", "--csv", "b.csv"]).done();
+    // What an automatic reference may cost is nothing to one from a file.
+    let (meshes, effort, accuracy) = (&QUICK[..4], &QUICK[4..8], &QUICK[8..]);
+    let run = |reference: &[&str], more: &[&str]| {
+        let fixed = ["compare", scene.as_str()];
+        place.run(&[&fixed[..], meshes, accuracy, reference, more].concat())
+    };
+    run(effort, &["--save-reference", "truth.csv", "--csv", "a.csv", "-q"]).done();
+    let again = run(&["--reference", "truth.csv"], &["--csv", "b.csv"]).done();
     assert!(again.stdout.contains("truth.csv"), "{}", again.stdout);
     let read = |name| std::fs::read_to_string(place.path(name)).expect("a table is written");
     assert_eq!(lasting(&read("a.csv")), lasting(&read("b.csv")));
@@ -74,7 +79,7 @@ fn what_cannot_be_compared_is_refused_before_the_scene_is_read() {
     place.write("file", "");
     let run = |more: &[&str]| place.run(&[&["compare", "missing.obj"], more].concat());
     run(&["--csv", "a.txt"]).refused(2, &["a.txt", ".csv"]);
-    run(&["--json", "a.csv"]).refused(2, &["a.csv", ".json"]);
+    run(&["--figures", "a.csv"]).refused(2, &["a.csv", ".json"]);
     run(&["--csv", "file/a.csv"]).refused(1, &["file/a.csv"]);
     run(&["--csv", "a.csv", "--save-reference", "a.csv"]).refused(1, &["a.csv", "twice"]);
     run(&["--budget", "0s"]).refused(2, &["2min"]);

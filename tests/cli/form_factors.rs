@@ -86,7 +86,8 @@ fn one_thread_and_three_write_the_same_bytes() {
     let scene = scene("cornell-box.obj");
     for method in ["contour", "hemicube", "rays"] {
         let written = ["1", "3"].map(|threads| {
-            let arguments = ["--method", method, "--threads", threads, "--rays", "1024"];
+            let cells: &[&str] = if method == "rays" { &["--rays", "1024"] } else { &[] };
+            let arguments = [&["--method", method, "--threads", threads][..], cells].concat();
             let fixed = ["form-factors", &scene, "--patch-size", "0.3", "-q", "-o", "F.csv"];
             place.run(&[&fixed[..], &arguments].concat()).done();
             std::fs::read(place.path("F.csv")).unwrap()
@@ -103,8 +104,8 @@ fn what_cannot_be_is_refused() {
         (&["-o", "F.txt"][..], ".json, .csv, .npy"),
         (&["--at", "1,2,3"], "six numbers"),
         (&["--at", "1,2,3,0,0,0"], "no direction"),
-        (&["--rays", "3"], "rays"),
-        (&["--hemicube-resolution", "33"], "even"),
+        (&["--method", "rays", "--rays", "3"], "rays"),
+        (&["--method", "hemicube", "--hemicube-resolution", "33"], "even"),
         (&["--patch-size", "0.0001"], "patch-size"),
     ] {
         let outcome = place.run(&[&["form-factors", &scene], arguments].concat());

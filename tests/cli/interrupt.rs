@@ -1,6 +1,6 @@
 //! Ctrl-C, SIGTERM, and limits of time and memory.
 
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -18,28 +18,79 @@ fn sigterm_leaves_a_valid_unfinished_solution() {
     a_signal_leaves_a_valid_unfinished_solution("-TERM");
 }
 
+/// How long it may take to end and to write: little, but on slow machines that do much else.
+const GRACE: Duration = Duration::from_secs(6);
+
+/// Starts the command and sends it a signal once it has told of something that begins so.
+fn signalled(place: &Place, arguments: &[&str], signal: &str, told: &str) -> Outcome {
+    let mut command = place.command(arguments);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it runs");
+    let mut stderr = BufReader::new(child.stderr.take().expect("stderr is piped"));
+    let mut heard = String::new();
+    while !heard.lines().last().is_some_and(|line| line.starts_with(told)) {
+        let read = stderr.read_line(&mut heard).expect("it tells what it does");
+        assert!(read > 0, "{told} is not in: {heard}");
+    }
+    let kill = Command::new("kill").args([signal, &child.id().to_string()]).status();
+    assert!(kill.is_ok_and(|status| status.success()));
+    let start = Instant::now();
+    stderr.read_to_string(&mut heard).expect("it tells what it does");
+    let mut outcome = Outcome::from(child.wait_with_output().expect("it ends"));
+    assert!(start.elapsed() < GRACE, "{:?}: {heard}", start.elapsed());
+    outcome.stderr = heard;
+    outcome
+}
+
 fn a_signal_leaves_a_valid_unfinished_solution(signal: &str) {
     let place = Place::new();
     let scene = scene("office.obj");
-    let arguments = ["solve", scene.as_str(), "--json", "-o", "a.glb", "--quality", "high"];
-    let mut child = place
-        .command(&arguments)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the command can be run");
+    let solve = ["solve", scene.as_str(), "--json", "-o", "a.glb", "--quality", "high"];
     // The scene has been read: the handler is in place, and the work is far from done.
-    let stderr = child.stderr.as_mut().expect("stderr is piped");
-    let mut line = String::new();
-    BufReader::new(stderr).read_line(&mut line).expect("a phase is told");
-    assert!(line.starts_with("reading"), "{line}");
-
-    let kill = Command::new("kill").args([signal, &child.id().to_string()]).status();
-    assert!(kill.is_ok_and(|status| status.success()));
-    let outcome = Outcome::from(child.wait_with_output().expect("it ends")).done();
+    let outcome = signalled(&place, &solve, signal, "reading").unfinished();
     assert_eq!(outcome.json()["stop"], "interrupted");
+    assert_eq!(outcome.json()["finished"], false);
     let (mesh, stamp) = load_solved(&place.path("a.glb")).expect("the GLB can be read again");
     assert!(!stamp.finished && !mesh.triangles.is_empty());
+}
+
+/// All commands that take long.
+#[test]
+fn sigterm_ends_every_command_with_what_there_is() {
+    let place = Place::new();
+    let [office, furnace] = [scene("office.obj"), scene("furnace.obj")];
+    let factors =
+        ["form-factors", furnace.as_str(), "--patch-size", "0.03", "-o", "F.csv", "--json"];
+    let outcome = signalled(&place, &factors, "-TERM", "6936 patches").unfinished();
+    let rows = outcome.json()["rows"].as_u64().expect("a number");
+    assert!(rows < 6_936 && place.path("F.csv").exists(), "{}", outcome.stderr);
+
+    place.solve(&["-o", "box.glb", "--relightable"]).done();
+    let large = ["--size", "1600x1600", "-v"];
+    let render = [&["render", "box.glb", "-o", "box.png"][..], &large].concat();
+    signalled(&place, &render, "-TERM", "camera").unfinished();
+    let relight = [&["relight", "box.glb", "--image", "dim.png"][..], &large].concat();
+    signalled(&place, &relight, "-TERM", "camera").unfinished();
+    assert!(place.path("box.png").exists() && place.path("dim.png").exists());
+
+    // Before the first run there is nothing to report, and that does not take long to be said.
+    let compare = ["compare", office.as_str(), "-o", "report.html"];
+    signalled(&place, &compare, "-TERM", "reading").refused(130, &["nothing to write"]);
+    assert!(!place.path("report.html").exists());
+}
+
+#[test]
+fn a_comparison_ended_early_reports_the_runs_that_are_done() {
+    let place = Place::new();
+    let scene = scene("cornell-box.obj");
+    let coarse = ["--places", "200", "--noise", "50%", "--adaptive", "50%,0.1%", "--stop", "5%"];
+    let written = ["--figures", "runs.json", "-o", "report.html"];
+    let compare = [&["compare", scene.as_str()][..], &coarse, &written].concat();
+    let outcome = signalled(&place, &compare, "-TERM", "adaptive 0.5").unfinished();
+    assert!(outcome.stdout.contains("interrupted: not all"), "{}", outcome.stdout);
+    let runs = std::fs::read_to_string(place.path("runs.json")).expect("it was written");
+    let runs: serde_json::Value = serde_json::from_str(&runs).expect("it is JSON");
+    assert_eq!(runs["interrupted"], true);
+    assert!(place.path("report.html").exists());
 }
 
 #[test]
@@ -47,17 +98,16 @@ fn a_limit_of_time_leaves_a_valid_unfinished_solution() {
     let place = Place::new();
     let scene = scene("office.obj");
     let solve = ["solve", scene.as_str(), "--json", "-o", "a.glb", "--time-limit", "0.2s"];
-    let outcome = place.run(&solve).done();
+    let outcome = place.run(&solve).unfinished();
     assert!(outcome.stderr.contains("the time is over"), "{}", outcome.stderr);
     assert_eq!(outcome.json()["stop"], "interrupted");
     let (mesh, stamp) = load_solved(&place.path("a.glb")).expect("the GLB can be read again");
     assert!(!stamp.finished && !mesh.triangles.is_empty());
 }
 
-/// In time, whatever phase the limit falls into; slow machines that do much else have some more.
+/// In time, whatever phase the limit falls into.
 #[test]
 fn a_limit_of_time_is_kept_in_every_phase() {
-    const GRACE: Duration = Duration::from_secs(6);
     let place = Place::new();
     let scene = scene("office.obj");
     for seconds in [0.3, 1.0, 3.0] {
@@ -65,7 +115,7 @@ fn a_limit_of_time_is_kept_in_every_phase() {
         let written = ["-o", "a.glb", "--image", "a.png", "--size", "320x240"];
         let solve = ["solve", scene.as_str(), "--quality", "high", "--time-limit", &limit];
         let start = Instant::now();
-        place.run(&[&solve[..], &written].concat()).done();
+        place.run(&[&solve[..], &written].concat()).unfinished();
         let over = start.elapsed().saturating_sub(Duration::from_secs_f64(seconds));
         assert!(over < GRACE, "{over:?} after {limit}");
         let (_, stamp) = load_solved(&place.path("a.glb")).expect("the GLB can be read again");
@@ -158,5 +208,5 @@ fn killed_and_gone_on_with_it_ends_in_the_same_bytes() {
     let pointless = [&solve("again.glb")[..], &["--resume"]].concat();
     place.run(&pointless).refused(2, &["--checkpoint"]);
     let onto_input = ["solve", scene.as_str(), "--checkpoint", scene.as_str(), "--resume"];
-    place.run(&onto_input).refused(1, &["the file that is read"]);
+    place.run(&onto_input).refused(1, &["is a file that this run reads"]);
 }

@@ -6,6 +6,7 @@ mod form_factors;
 #[cfg(unix)]
 mod interrupt;
 mod lights;
+mod outputs;
 mod page;
 mod repairs;
 mod solve;
@@ -20,12 +21,14 @@ use tempfile::TempDir;
 /// Options that make a solution of the Cornell box a matter of a moment.
 const COARSE: [&str; 6] = ["--uniform", "0.2", "--hemicube-resolution", "32", "--stop", "5%"];
 
-/// A directory of its own to run the command in.
+/// A directory of its own to run the command in, with another, `deep`, in it.
 struct Place(TempDir);
 
 impl Place {
     fn new() -> Self {
-        Self(tempfile::tempdir().expect("temporary directories can be made"))
+        let place = Self(tempfile::tempdir().expect("temporary directories can be made"));
+        std::fs::create_dir(place.path("deep")).expect("temporary directories can be made");
+        place
     }
 
     fn path(&self, name: &str) -> PathBuf {
@@ -77,6 +80,12 @@ impl Outcome {
     /// Asserts that all went well.
     fn done(self) -> Self {
         assert_eq!(self.code, Some(0), "{self:?}");
+        self
+    }
+
+    /// Asserts that it ended early, and has written what there was.
+    fn unfinished(self) -> Self {
+        assert_eq!(self.code, Some(3), "{self:?}");
         self
     }
 

@@ -146,8 +146,8 @@ proptest! {
 
     #[test]
     fn no_amount_and_no_name_is_too_strange(text in ".{0,20}") {
-        if let Ok(amount) = text.parse::<Amount>() {
-            let radiance = amount.radiance(1.0);
+        let radiance = text.parse::<Amount>().and_then(|amount| amount.radiance(1.0));
+        if let Ok(radiance) = radiance {
             prop_assert!(radiance.is_finite() && radiance.min_element() >= 0.0);
         }
         let _ = squares().emit(&text, Amount::Flux(1.0));

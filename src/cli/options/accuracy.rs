@@ -20,6 +20,7 @@ pub(crate) struct AccuracyOptions {
     ///
     /// For comparison with the adaptive mesh; the number of elements grows with its inverse square.
     #[arg(long, value_name = "METRES", value_parser = values::number)]
+    #[arg(conflicts_with_all = ["max_level", "no_discontinuity_lines"])]
     uniform: Option<f64>,
 
     /// Stop after this many shots, and estimate the rest as ambient light

@@ -1,13 +1,11 @@
 //! Work that is kept, and gone on with.
 
 use std::fmt::Debug;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use radiosity::solver::Checkpoint;
 use radiosity::{Error, Result, Settings};
-
-use crate::cli::outputs;
 
 /// Where work is kept.
 #[derive(Debug, Args)]
@@ -18,7 +16,7 @@ pub(crate) struct CheckpointOptions {
     /// Whatever ends the program, little more than the last twentieth of the work is lost. The file stays when
     /// the work is done: other pictures of the same solution are then ready in a moment.
     #[arg(long, value_name = "FILE")]
-    checkpoint: Option<PathBuf>,
+    pub(crate) checkpoint: Option<PathBuf>,
 
     /// Go on from the file of --checkpoint, if there is one, and end with the same bytes as if never left
     #[arg(long, requires = "checkpoint")]
@@ -26,10 +24,9 @@ pub(crate) struct CheckpointOptions {
 }
 
 impl CheckpointOptions {
-    /// Whether the file can be kept; `input` is what the command reads.
-    pub(crate) fn check(&self, input: &Path) -> Result<()> {
+    /// Whether the file can be kept.
+    pub(crate) fn check(&self) -> Result<()> {
         let Some(path) = &self.checkpoint else { return Ok(()) };
-        outputs::refuse_input(input, path)?;
         if path.exists() && !self.resume {
             let message = "is there already; go on from it with --resume, or give another name";
             return Err(Error::format(path, message));

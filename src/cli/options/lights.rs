@@ -37,7 +37,7 @@ pub(crate) struct LightOptions {
     /// Add a light without size, even in all directions: lumens, candela or W/sr; may be repeated
     #[arg(long, value_name = "X,Y,Z=800lm|60cd|W/SR", value_parser = point_light)]
     #[arg(allow_hyphen_values = true)]
-    point_light: Vec<Light>,
+    point_light: Vec<(Light, bool)>,
 
     /// Add a luminaire from an IES file (LM-63, type C), aimed down; may be repeated
     ///
@@ -80,6 +80,23 @@ impl LightOptions {
         !self.area_light.is_empty()
     }
 
+    /// Whether lamps are given in lumens, candela or lux: then light is told in them, too.
+    pub(super) fn is_photometric(&self) -> bool {
+        let in_lumens = |amount: &Amount| matches!(amount, Amount::Flux(_));
+        self.emit.iter().any(|(_, amount)| in_lumens(amount))
+            || self.area_light.iter().any(|lamp| in_lumens(&lamp.amount))
+            || self.point_light.iter().any(|(_, is_photometric)| *is_photometric)
+            || !self.ies.is_empty()
+            || self.sun.is_some()
+            || self.sky.is_some()
+    }
+
+    /// The files that are read.
+    pub(super) fn files(&self) -> impl Iterator<Item = PathBuf> {
+        let luminaires = self.ies.iter().map(|luminaire| &luminaire.file);
+        luminaires.chain(&self.materials).cloned()
+    }
+
     /// Adds to a scene what was asked for.
     pub(super) fn apply(&self, scene: &mut Scene) -> Result<(), Error> {
         if let Some(file) = &self.materials {
@@ -92,7 +109,8 @@ impl LightOptions {
         for Luminaire { file, position, rotation } in &self.ies {
             scene.add_luminaire(file, *position, *rotation)?;
         }
-        let lights = self.point_light.iter().chain(&self.sun).chain(&self.sky);
+        let points = self.point_light.iter().map(|(light, _)| light);
+        let lights = points.chain(&self.sun).chain(&self.sky);
         scene.lights.extend(lights.cloned().map(NamedLight::from));
         Ok(())
     }
@@ -128,8 +146,8 @@ fn area_light(text: &str) -> Result<AreaLight, String> {
     })
 }
 
-/// `1,2,1=800lm`.
-fn point_light(text: &str) -> Result<Light, String> {
+/// `1,2,1=800lm`, and whether it is in photometric units.
+fn point_light(text: &str) -> Result<(Light, bool), String> {
     const WANTED: &str = "write X,Y,Z=800lm, X,Y,Z=60cd, or W/sr without a unit";
     let (position, amount) = text.split_once('=').ok_or(WANTED)?;
     let (amount, unit) = match (amount.strip_suffix("lm"), amount.strip_suffix("cd")) {
@@ -137,8 +155,9 @@ fn point_light(text: &str) -> Result<Light, String> {
         (_, Some(candela)) => (candela, 1.0 / LUMENS_PER_WATT),
         _ => (amount, 1.0),
     };
-    let intensity = positive(amount.trim_end()).ok_or(WANTED)? * unit;
-    Ok(Light::Point { position: vector(position)?, intensity: Rgb::splat(intensity), range: None })
+    let intensity = Rgb::splat(positive(amount.trim_end()).ok_or(WANTED)? * unit);
+    let light = Light::Point { position: vector(position)?, intensity, range: None };
+    Ok((light, unit != 1.0))
 }
 
 /// `lamp.ies@1,2,3,90`.
@@ -215,7 +234,7 @@ mod tests {
     #[test]
     fn lumens_of_a_point_are_shared_by_all_directions() {
         let intensity = |text| match point_light(text) {
-            Ok(Light::Point { intensity, .. }) => intensity.x * LUMENS_PER_WATT,
+            Ok((Light::Point { intensity, .. }, _)) => intensity.x * LUMENS_PER_WATT,
             other => panic!("{other:?}"),
         };
         assert!((intensity("1,2,3=800lm") - 800.0 / (4.0 * PI)).abs() < 1e-9);

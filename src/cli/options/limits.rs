@@ -10,13 +10,23 @@ use crate::cli::memory::MemoryLimit;
 /// Share of the memory that is there which may be taken by default.
 const SHARE: f64 = 0.8;
 
+/// When work ends though it is not done.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Limits")]
+pub(crate) struct TimeOptions {
+    /// Stop after this time and write what there is, marked as unfinished: 90s, 10min, 2h
+    ///
+    /// The exit code is 3 then, as after Ctrl-C or SIGTERM. Triangles are still made, and files written, after it.
+    #[arg(long, value_name = "TIME", value_parser = values::duration)]
+    pub(crate) time_limit: Option<Duration>,
+}
+
 /// Where work ends though it is not done.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Limits")]
 pub(crate) struct LimitOptions {
-    /// Stop after this time and write what there is, marked as unfinished: 90s, 10min, 2h
-    #[arg(long, value_name = "TIME", value_parser = values::duration)]
-    time_limit: Option<Duration>,
+    #[command(flatten)]
+    pub(crate) time: TimeOptions,
 
     /// Divide no further where memory would grow beyond this, about: 500MB, 4GB
     ///
@@ -26,10 +36,6 @@ pub(crate) struct LimitOptions {
 }
 
 impl LimitOptions {
-    pub(crate) fn time(&self) -> Option<Duration> {
-        self.time_limit
-    }
-
     /// What may be taken.
     pub(crate) fn memory(&self) -> MemoryLimit {
         MemoryLimit(self.max_memory.or_else(free))

@@ -7,7 +7,10 @@ use radiosity::{Error, Result};
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Reporting")]
 pub(crate) struct ReportOptions {
-    /// Result on stdout as JSON, for programs
+    /// Result on stdout as JSON, for programs: in W, W/m², lx and m, whatever the units of the lamps
+    ///
+    /// What is written has `finished` (false if it was ended early), `written` (files), `seconds` (by phase) and
+    /// `notes`, as far as there are any; then what is the command's own.
     #[arg(long)]
     pub(crate) json: bool,
 

@@ -18,13 +18,30 @@ use super::values::{self, Size};
 /// Full vertical angle of view of a camera given without one, degrees.
 const DEFAULT_FOV: f64 = 45.0;
 
+/// Size of a picture if nothing is said of it.
+const SIZE: Size = Size { width: 960, height: 720 };
+
+/// What is said where there is no picture.
+const NO_PICTURE: &str = "there is no picture that it would be for; write one, too";
+
+/// What is written beside pictures.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Elsewhere {
+    /// Nothing that is exposed.
+    Nothing,
+    /// Colours that are exposed as a picture would be.
+    Colours,
+    /// Something with a picture in it.
+    Picture,
+}
+
 /// The picture and what may be seen in it.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Picture")]
 pub(crate) struct PictureOptions {
-    /// Size of the picture in pixels
-    #[arg(long, value_name = "WxH", default_value = "960x720", value_parser = values::size)]
-    size: Size,
+    /// Size of the picture in pixels (default: 960x720)
+    #[arg(long, value_name = "WxH", value_parser = values::size)]
+    size: Option<Size>,
 
     /// A camera of the file, by name or number from 0; `auto` looks for a view that shows the room
     ///
@@ -53,10 +70,10 @@ pub(crate) struct PictureOptions {
     #[arg(allow_hyphen_values = true)]
     exposure: Option<Exposure>,
 
-    /// What to show; all but `light` with a legend below the picture (PNG)
+    /// What to show (default: light); all but `light` with a legend below the picture (PNG)
     ///
     /// One for all pictures, or one for each in their order: --view light,error
-    #[arg(long, value_enum, value_delimiter = ',', default_value = "light")]
+    #[arg(long, value_enum, value_delimiter = ',')]
     view: Vec<Shown>,
 
     /// Evaluate direct light anew at the samples of the picture, for shadows finer than the mesh
@@ -134,7 +151,7 @@ impl PictureOptions {
         match choice {
             CameraChoice::Given(camera) => camera.clone(),
             CameraChoice::Automatic(fov) => {
-                let Size { width, height } = self.size;
+                let Size { width, height } = self.size();
                 let found = automatic_camera(mesh, f64::from(width) / f64::from(height));
                 Camera { vertical_fov: fov.unwrap_or(found.vertical_fov), ..found }
             }
@@ -150,7 +167,7 @@ impl PictureOptions {
         kept: Exposure,
     ) -> (Camera, Exposure) {
         let camera = self.camera(choice, mesh);
-        let Size { width, height } = self.size;
+        let Size { width, height } = self.size();
         let exposure = match self.exposure.unwrap_or(kept) {
             Exposure::Automatic => {
                 exposure_seen(mesh, &camera, f64::from(width) / f64::from(height))
@@ -163,8 +180,9 @@ impl PictureOptions {
     /// Which view goes into which of the files.
     pub(crate) fn views<'a>(&self, files: &'a [PathBuf]) -> Result<Vec<(View, Vec<&'a PathBuf>)>> {
         let views = self.view.iter().copied().map(View::from);
-        if let [only] = *self.view {
-            return Ok(vec![(only.into(), files.iter().collect())]);
+        if let [] | [_] = *self.view {
+            let only = self.view.first().map_or(View::Light, |&only| only.into());
+            return Ok(vec![(only, files.iter().collect())]);
         }
         if self.view.len() != files.len() {
             let (views, files) = (self.view.len(), files.len());
@@ -193,9 +211,60 @@ impl PictureOptions {
         Ok(())
     }
 
+    /// Refuses what would do nothing: wishes for a picture without one, an exposure where nothing is exposed.
+    ///
+    /// `files` are the pictures to write; other things with a picture in them, or with colours exposed for one, may be
+    /// written beside them.
+    pub(crate) fn check_use(&self, files: &[PathBuf], elsewhere: Elsewhere) -> Result<()> {
+        let refused =
+            |name, message: &str| Err(Error::Setting { name, message: message.to_owned() });
+        let (drawn, exposed) = match elsewhere {
+            Elsewhere::Nothing => (!files.is_empty(), false),
+            Elsewhere::Colours => (!files.is_empty(), true),
+            Elsewhere::Picture => (true, true),
+        };
+        if !drawn && self.size.is_some() {
+            return refused("size", NO_PICTURE);
+        }
+        if !drawn && self.final_gather {
+            return refused("final-gather", NO_PICTURE);
+        }
+        if files.is_empty() && !self.view.is_empty() {
+            return refused("view", NO_PICTURE);
+        }
+        let from = self.camera.is_some() || self.eye.is_some() || self.fov.is_some();
+        if !drawn && !exposed && (from || self.exposure.is_some()) {
+            return refused(
+                "camera",
+                "nothing is written that would show it; ask for a picture, too",
+            );
+        }
+        let is_linear =
+            |file: &PathBuf| !file.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"));
+        if !exposed && self.exposure.is_some() && files.iter().all(is_linear) {
+            return refused(
+                "exposure",
+                "a .hdr or .exr has light as it is; only a .png is exposed",
+            );
+        }
+        let shows_direct = |&view: &Shown| {
+            !matches!(view, Shown::Indirect | Shown::Level | Shown::Reason | Shown::Error)
+        };
+        let is_gathered = self.view.is_empty() || self.view.iter().any(shows_direct);
+        if self.final_gather && !is_gathered && !matches!(elsewhere, Elsewhere::Picture) {
+            return refused("final-gather", "none of the views shows direct light");
+        }
+        Ok(())
+    }
+
+    fn size(&self) -> Size {
+        self.size.unwrap_or(SIZE)
+    }
+
     /// Pixels of a picture.
     pub(crate) fn pixels(&self) -> u64 {
-        u64::from(self.size.width) * u64::from(self.size.height)
+        let Size { width, height } = self.size();
+        u64::from(width) * u64::from(height)
     }
 
     /// One view of a mesh, the skies and suns among some lights behind it.
@@ -206,7 +275,7 @@ impl PictureOptions {
         (camera, sky): (&Camera, &[NamedLight]),
         observe: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Picture {
-        let (Size { width, height }, final_gather) = (self.size, self.final_gather);
+        let (Size { width, height }, final_gather) = (self.size(), self.final_gather);
         let sky = sky.to_vec();
         let options =
             RenderOptions { view, width, height, final_gather, sky, ..RenderOptions::default() };

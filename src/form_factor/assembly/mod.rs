@@ -8,8 +8,6 @@ mod views;
 
 use std::ops::ControlFlow;
 
-use rayon::prelude::*;
-
 use super::FormFactors;
 use super::hemicube::{DeltaFactors, Targets};
 use super::pair::{exchange, is_level};
@@ -56,7 +54,7 @@ const LEAST_RESOLUTION: u32 = 32;
 type Row = Vec<(u32, f64)>;
 
 /// The form factors between all `patches`, telling `observe` how much is done, 0..=1; when that breaks
-/// off, the rows that are missing are empty.
+/// off, the rows that are missing are empty, and light on backs is not looked for any more.
 ///
 /// By hemicubes and rays, each pair has two estimates; their mean is taken, so that all matrices are
 /// reciprocal and the sums of their rows tell how good they are.
@@ -70,9 +68,11 @@ pub fn assemble(
     let exchanges = contour::Exchanges::new(patches, occluders, &contacts);
     let mut rows: Vec<Row> = Vec::with_capacity(patches.len());
     let areas: Vec<f64> = patches.iter().map(|patch| patch.area).collect();
+    let [looked, all] = if method == Method::Contour { [0.9, 0.9] } else { [0.7, 0.9] };
+    let mut look = |done| observe(looked * done);
     match method {
         Method::Contour => {
-            in_batches(patches.len(), &mut rows, || (), |(), i| exchanges.row(i), &mut observe);
+            in_batches(patches.len(), &mut rows, || (), |(), i| exchanges.row(i), &mut look);
         }
         Method::Hemicube(resolution) => {
             // Rows are looked at from four points or more: as many cells in all.
@@ -80,30 +80,36 @@ pub fn assemble(
             let (delta, targets) = (DeltaFactors::new(each), Targets::new(patches));
             let looker = || views::Cells::new(patches, occluders, (&delta, &targets));
             let row = |look: &mut views::Cells<'_>, i| sampled::row((patches, &contacts), i, look);
-            in_batches(patches.len(), &mut rows, looker, row, &mut observe);
+            in_batches(patches.len(), &mut rows, looker, row, &mut look);
         }
         Method::Rays(count) => {
             let (sphere, hierarchy) = (Sphere::new(count as usize), PatchHierarchy::new(patches));
             let looker = || views::Sphere::new(patches, occluders, (&sphere, &hierarchy));
             let row = |look: &mut views::Sphere<'_>, i| sampled::row((patches, &contacts), i, look);
-            in_batches(patches.len(), &mut rows, looker, row, &mut observe);
+            in_batches(patches.len(), &mut rows, looker, row, &mut look);
         }
     }
-    let done = rows.len();
-    rows.resize(patches.len(), Row::new());
+    let mut done = rows.len();
     if method != Method::Contour {
-        rows = exchanges_of(patches, occluders, &FormFactors::from_rows(areas.clone(), rows));
+        rows.resize(patches.len(), Row::new());
+        let sampled = FormFactors::from_rows(areas.clone(), rows);
+        let mut average = |share| observe(looked + (all - looked) * share);
+        rows = exchanges_of((patches, done), occluders, &sampled, &mut average);
+        done = rows.len();
     }
+    rows.resize(patches.len(), Row::new());
     for (i, row) in rows.iter_mut().enumerate() {
         *row = merged(std::mem::take(row), contacts.row(i).into_iter());
         row.shrink_to_fit();
     }
     let factors = FormFactors::from_exchanges(areas, rows, done);
-    let sums = factors.row_sums();
-    let on_backs = |(i, sum): (usize, f64)| {
+    let sums: Vec<(usize, f64)> = factors.row_sums().into_iter().enumerate().collect();
+    let on_backs = |(): &mut (), &(i, sum): &(usize, f64)| {
         if i < done && sum < 1.0 - CLOSED { exchanges.on_backs(i).min(1.0 - sum) } else { 0.0 }
     };
-    let on_backs = sums.into_par_iter().enumerate().map(on_backs).collect();
+    let mut look = |share| observe(all + (1.0 - all) * share);
+    let mut on_backs = watch::in_batches(&sums, |_| (), on_backs, &mut look);
+    on_backs.resize(patches.len(), 0.0);
     Assembled { factors, on_backs, rows: done }
 }
 
@@ -120,14 +126,19 @@ fn in_batches<T>(
     observe: &mut impl FnMut(f64) -> ControlFlow<()>,
 ) {
     let numbers: Vec<usize> = (0..count).collect();
-    *rows = watch::in_batches(&numbers, tool, |tool, &number| row(tool, number), observe);
+    *rows = watch::in_batches(&numbers, |_| tool(), |tool, &number| row(tool, number), observe);
 }
 
-/// Exchanges above the diagonal, m²: exact where nothing stands between, else the mean of the two
-/// estimates.
-fn exchanges_of(patches: &[Patch], occluders: &Occluders, factors: &FormFactors) -> Vec<Row> {
+/// Exchanges above the diagonal in the first `count` rows, m²: exact where nothing stands between, else the mean of
+/// the two estimates; of fewer rows, if `observe` breaks off.
+fn exchanges_of(
+    (patches, count): (&[Patch], usize),
+    occluders: &Occluders,
+    factors: &FormFactors,
+    observe: &mut impl FnMut(f64) -> ControlFlow<()>,
+) -> Vec<Row> {
     let transposed = factors.transposed();
-    let row = |i: usize| {
+    let row = |(): &mut (), i: usize| {
         let this = facet(&patches[i]);
         let above = |&(j, _): &(usize, f64)| j > i;
         let there: Row =
@@ -143,7 +154,9 @@ fn exchanges_of(patches: &[Patch], occluders: &Occluders, factors: &FormFactors)
         };
         merged(there, back).into_iter().map(exact).collect()
     };
-    (0..patches.len()).into_par_iter().map(row).collect()
+    let mut rows = Vec::new();
+    in_batches(count, &mut rows, || (), row, observe);
+    rows
 }
 
 /// Sums of the values of two lists with ascending columns.

@@ -90,15 +90,32 @@ impl File {
                 self.fail(format!("\"{uri}\": only data: URIs and relative paths are read"))
             );
         }
-        let name = percent_decode_str(uri).decode_utf8();
-        let name = name.map_err(|_| self.fail(format!("\"{uri}\" is not UTF-8 when decoded")))?;
-        let folder = self.path.parent().unwrap_or(Path::new(""));
-        let path = folder.join(name.as_ref());
-        // Exporters also write names as they are, with escapes or backslashes in them.
-        fs::read(&path)
-            .or_else(|error| fs::read(folder.join(uri)).map_err(|_| error))
-            .or_else(|error| fs::read(folder.join(name.replace('\\', "/"))).map_err(|_| error))
+        let [path, others @ ..] = self
+            .beside(uri)
+            .ok_or_else(|| self.fail(format!("\"{uri}\" is not UTF-8 when decoded")))?;
+        others
+            .iter()
+            .fold(fs::read(&path), |read, other| read.or_else(|e| fs::read(other).map_err(|_| e)))
             .map_err(Error::io(&path))
+    }
+
+    /// Where the file behind a relative URI may be; `None` if its name is no text.
+    ///
+    /// Exporters also write names as they are, with escapes or backslashes in them.
+    fn beside(&self, uri: &str) -> Option<[PathBuf; 3]> {
+        let name = percent_decode_str(uri).decode_utf8().ok()?;
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        let names = [name.as_ref(), uri, &name.replace('\\', "/")];
+        Some(names.map(|name| folder.join(name)))
+    }
+
+    /// The file itself, and all places of those that it refers to.
+    pub(super) fn files(&self) -> Vec<PathBuf> {
+        let buffers = self.root.buffers.iter().filter_map(|buffer| buffer.uri.as_deref());
+        let images = self.root.images.iter().filter_map(|image| image.uri.as_deref());
+        let relative = buffers.chain(images).filter(|uri| !uri.starts_with("data:"));
+        let beside = relative.filter_map(|uri| self.beside(uri)).flatten();
+        [self.path.clone()].into_iter().chain(beside).collect()
     }
 
     fn buffer(&self, index: usize, blob: &mut Option<Vec<u8>>) -> Result<Option<Vec<u8>>> {

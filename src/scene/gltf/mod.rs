@@ -18,7 +18,7 @@ use crate::error::Result;
 /// Reads the glTF or GLB file at `path` with its buffers and pictures.
 pub(super) fn read(path: &Path) -> Result<Scene> {
     let file = File::open(path)?;
-    let mut scene = Scene::default();
+    let mut scene = Scene { files: file.files(), ..Scene::default() };
     let materials::Known { mappings, clear } = materials::read(&file, &mut scene)?;
     let mut import =
         Import { file: &file, scene, mappings, fallback: None, skipped: Skipped::default() };

@@ -58,6 +58,7 @@ impl Library {
             }
             seen.push(file);
         }
+        scene.files.extend(seen);
         if !library.colourless.is_empty() {
             let names = listed(&library.colourless);
             scene.notes.push(format!("no Kd in {names}; grey of reflectance 0.5 is used"));
@@ -168,8 +169,9 @@ fn library_files(folder: &Path, names: &str) -> Vec<PathBuf> {
 
 fn read_picture(library_folder: &Path, file: &Path, map: &Map, scene: &mut Scene) -> Option<u32> {
     // Exporters like to write paths of their own machine.
-    let beside = || library_folder.join(file.file_name().unwrap_or_default());
-    let bytes = fs::read(file).or_else(|error| fs::read(beside()).map_err(|_| error));
+    let beside = library_folder.join(file.file_name().unwrap_or_default());
+    let bytes = fs::read(file).or_else(|error| fs::read(&beside).map_err(|_| error));
+    scene.files.extend([file.to_owned(), beside]);
     let bytes = bytes.map_err(|error| error.to_string());
     match bytes.and_then(|bytes| decode(&map.file, &bytes, [!map.clamp; 2])) {
         Ok(texture) => {

@@ -27,7 +27,8 @@ pub(super) fn read(path: &Path, options: &LoadOptions) -> Result<Scene> {
     let mut mesh = parse(path, &scan)?;
     options.up.lay(&mut mesh.positions);
     options.up.lay(&mut mesh.normals);
-    let mut scene = Scene { objects: scan.objects.clone(), ..Scene::default() };
+    let (objects, files) = (scan.objects.clone(), vec![path.to_owned()]);
+    let mut scene = Scene { objects, files, ..Scene::default() };
     note_ignored(&scan, &mut scene.notes);
     let mut library = Library::read(path, &scan.libraries, &mut scene);
     let uses: Vec<Use> = library.resolve(path, &scan.materials, &mut scene);

@@ -110,18 +110,6 @@ impl Checkpoint {
         settings
     }
 
-    /// What `work` comes to: from the file, or worked out and kept there.
-    pub(super) fn recall<R: Serialize + DeserializeOwned>(
-        &mut self,
-        work: impl FnOnce() -> R,
-    ) -> R {
-        self.next().unwrap_or_else(|| {
-            let result = work();
-            self.keep(&result);
-            result
-        })
-    }
-
     /// What was kept next, unless there is no more.
     pub(super) fn next<R: DeserializeOwned>(&mut self) -> Option<R> {
         self.keeping.as_mut()?.tape.next()

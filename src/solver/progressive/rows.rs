@@ -95,7 +95,7 @@ impl Shooting<'_, '_> {
         let (delta, targets, occluders) = (&self.delta, &self.targets, self.occluders);
         self.observer.map(
             groups,
-            || Hemicube::new(delta, targets, occluders),
+            |_| Hemicube::new(delta, targets, occluders),
             |hemicube, &shooter| take(transport.row(hemicube, shooter)),
         )
     }
