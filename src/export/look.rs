@@ -1,8 +1,10 @@
 //! What every writer asks of a mesh: its colours on a screen and a few words about them.
 
 use super::Stamp;
+use super::group::Group;
 use crate::colour::{Rgb, srgb_from_linear};
 use crate::reconstruct::TriMesh;
+use crate::scene::Texture;
 use crate::tone::{Exposure, exposure_scale, exposure_value, tone_map};
 
 /// Name of the curve behind [`tone_map`], for the record.
@@ -15,6 +17,8 @@ pub(crate) struct Look<'a> {
     pub(crate) stamp: &'a Stamp,
     /// Factor on radiosity before the tone curve, m²/W.
     pub(crate) scale: f64,
+    /// [`Texture::white`] of the mesh's textures.
+    pub(crate) whites: Vec<f64>,
 }
 
 impl<'a> Look<'a> {
@@ -22,7 +26,8 @@ impl<'a> Look<'a> {
         debug_assert!(mesh.positions.iter().all(|position| position.is_finite()));
         debug_assert!(mesh.normals.iter().all(|normal| normal.is_normalized()));
         debug_assert!(mesh.radiosity.iter().all(|radiosity| radiosity.is_finite()));
-        Self { mesh, stamp, scale: exposure_scale(mesh, stamp.exposure) }
+        let whites = mesh.textures.iter().map(Texture::white).collect();
+        Self { mesh, stamp, scale: exposure_scale(mesh, stamp.exposure), whites }
     }
 
     /// Linear colour, 0..=1, of the light that leaves a vertex.
@@ -30,15 +35,13 @@ impl<'a> Look<'a> {
         tone_map(self.mesh.radiosity[vertex as usize] * self.scale)
     }
 
-    /// Linear colour, 0..=1, that is to be multiplied by the picture under a vertex, if it has one.
-    pub(crate) fn light(&self, vertex: u32) -> Rgb {
-        let radiosity = self.mesh.radiosity[vertex as usize].to_array();
-        let mean = self.mesh.texture_mean[vertex as usize].to_array();
-        // A channel that the picture is black in shows nothing, whatever it is multiplied by.
-        let light = |channel: usize| {
-            if mean[channel] > 0.0 { radiosity[channel] / mean[channel] } else { 0.0 }
+    /// Linear colour, 0..=1, that is to be shown at a vertex of a group, or to be multiplied by its picture's colours
+    /// once they are divided by the picture's white.
+    pub(crate) fn shown(&self, vertex: u32, group: &Group) -> Rgb {
+        let Some(texture) = group.texture else {
+            return self.colour(vertex);
         };
-        tone_map(Rgb::from_array(std::array::from_fn(light)) * self.scale)
+        tone_map(self.mesh.light(vertex as usize) * self.whites[texture as usize] * self.scale)
     }
 
     /// Sentences for the comments of text headers, one a line.

@@ -18,8 +18,9 @@ pub(crate) fn save(look: &Look, path: &Path) -> Result<()> {
     let textures: BTreeSet<u32> = groups.iter().filter_map(|group| group.texture).collect();
     for &texture in &textures {
         let target = path.with_file_name(picture_name(look, &stem, texture));
-        let bytes =
-            picture::encoded(&look.mesh.textures[texture as usize]).map_err(Error::io(&target))?;
+        let white = look.whites[texture as usize];
+        let bytes = picture::encoded(&look.mesh.textures[texture as usize], white)
+            .map_err(Error::io(&target))?;
         file::replace(&target, |out| out.write_all(&bytes))?;
     }
     file::replace(&path.with_extension("mtl"), |out| {
@@ -59,7 +60,7 @@ impl<W: Write> Body<'_, W> {
         let mesh = self.look.mesh;
         for &vertex in &group.vertices {
             let [x, y, z] = singles(mesh.positions[vertex as usize]);
-            let [r, g, b] = coded(self.look.light(vertex));
+            let [r, g, b] = coded(self.look.shown(vertex, group));
             writeln!(self.out, "v {x} {y} {z} {r:.4} {g:.4} {b:.4}")?;
         }
         for &vertex in &group.vertices {
@@ -102,7 +103,8 @@ fn write_material(name: &str, picture: Option<&str>, out: &mut impl Write) -> io
 }
 
 fn picture_name(look: &Look, stem: &str, texture: u32) -> String {
-    let ending = Coding::of(&look.mesh.textures[texture as usize]).ending();
+    let number = texture as usize;
+    let ending = Coding::of(&look.mesh.textures[number], look.whites[number]).ending();
     format!("{stem}-{texture}.{ending}")
 }
 

@@ -20,8 +20,8 @@ pub struct TriMesh {
     pub uvs: Vec<Vec2>,
     /// Radiosity B, W/m² per channel, interpolated linearly over a triangle.
     pub radiosity: Vec<Rgb>,
-    /// Mean colour of the texture under the vertex's element, 1 where there is none:
-    /// `radiosity / texture_mean * texture` is the textured radiosity.
+    /// Mean colour of the texture under the vertex's element, 1 where there is none; [`Self::light`] times the
+    /// texture is the textured radiosity.
     pub texture_mean: Vec<Rgb>,
     /// Corners, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
@@ -40,7 +40,29 @@ pub struct TriMesh {
     pub hanging: usize,
 }
 
+/// Mean of a channel of a picture, as a share of that of its brightest one, below which it says nothing of the light.
+const LEAST_MEAN: f64 = 1e-3;
+
+/// Least light in a channel, as a share of that in the brightest one: what is shown has a ratio in all channels.
+const TRACE: f64 = 1e-6;
+
 impl TriMesh {
+    /// Radiosity, W/m², that a textured surface would have at a vertex if its picture were white: this times the
+    /// picture is the textured radiosity. Zero where the picture is black all around.
+    ///
+    /// Channels that the picture has next to nothing of are lit as its brightest one is.
+    pub fn light(&self, vertex: usize) -> Rgb {
+        let (radiosity, mean) = (self.radiosity[vertex], self.texture_mean[vertex]);
+        let channel = mean.max_position();
+        if mean[channel] <= 0.0 {
+            return Rgb::ZERO;
+        }
+        let is_known = mean.cmpge(Rgb::splat(LEAST_MEAN * mean[channel]));
+        let light =
+            Rgb::select(is_known, radiosity / mean, Rgb::splat(radiosity[channel] / mean[channel]));
+        light.max(Rgb::splat(TRACE * light.max_element()))
+    }
+
     /// Least and greatest coordinates of the triangles, m; both zero if there is none.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         let mut corners = self.triangles.iter().flatten().map(|&c| self.positions[c as usize]);

@@ -56,7 +56,16 @@ pub struct Texture {
     pub repeat: [bool; 2],
 }
 
+/// Pictures with a channel at least as bright as this somewhere need not be brightened to be seen well.
+const BRIGHT: f32 = 0.9;
+
 impl Texture {
+    /// The brightest channel of all texels, 0..=1, by which the picture is divided to be shown; 1 if that is near it.
+    pub fn white(&self) -> f64 {
+        let brightest = self.texels.iter().flatten().copied().fold(0.0, f32::max);
+        if brightest > 0.0 && brightest < BRIGHT { f64::from(brightest) } else { 1.0 }
+    }
+
     /// The texel at texture coordinates `uv`, linear RGB; black for a picture without texels.
     pub fn sample(&self, uv: DVec2) -> Rgb {
         let index = |coordinate: f64, count: u32, repeat: bool| {

@@ -7,10 +7,10 @@ use std::path::Path;
 use glam::Vec3;
 use proptest::prelude::*;
 use radiosity::Result;
-use radiosity::colour::Rgb;
+use radiosity::colour::{Rgb, linear_from_srgb, srgb_from_linear};
 use radiosity::export::{Stamp, load_solved, save};
 use radiosity::reconstruct::{Part, TriMesh};
-use radiosity::tone::{Exposure, exposure_scale, tone_map};
+use radiosity::tone::{Exposure, exposure_scale, tone_map, tone_map_picture};
 
 use crate::meshes::{bytes_of, in_new_directory, meshes, small_mesh};
 
@@ -123,7 +123,8 @@ fn colour_0_times_the_picture_is_the_tone_mapped_light() {
         .iter()
         .map(|&bytes| f64::from(u16::from_le_bytes(bytes)) / 65535.0)
         .collect();
-    let light = tone_map(Rgb::new(0.1 / 0.5, 0.7 / 0.25, 0.0) * scale).to_array();
+    // What the picture has no blue of is lit as its red.
+    let light = tone_map(Rgb::new(0.1 / 0.5, 0.7 / 0.25, 0.1 / 0.5) * scale).to_array();
     for (fraction, expected) in fractions.iter().zip([light[0], light[1], light[2], 1.0]) {
         assert!((fraction - expected).abs() < 1e-4, "{fractions:?} {light:?}");
     }
@@ -179,4 +180,64 @@ fn a_glb_without_radiosity_is_refused_with_advice() {
     let message = load_solved(&scene).unwrap_err().to_string();
     let place = message.contains("cornell-box.glb");
     assert!(place && message.contains("_RADIOSITY"), "{message}");
+}
+
+/// What a viewer shows at a corner of the textured part, and what our picture has there, both linear.
+fn shown_at_a_corner(texels: Vec<[f32; 3]>, radiosity: Rgb) -> [Rgb; 2] {
+    let mut mesh = small_mesh();
+    let mean = texels.iter().map(|&texel| Vec3::from(texel).as_dvec3()).sum::<Rgb>() / 2.0;
+    mesh.textures[0].texels = texels;
+    mesh.texture_mean.fill(mean);
+    mesh.radiosity.fill(radiosity * mean);
+    let stamp = Stamp { exposure: Exposure::Ev(9.0), ..Stamp::default() };
+    let (root, binary) = chunks(&bytes_of(&mesh, "m.glb", &stamp));
+    let bytes = |view: gltf_json::Index<gltf_json::buffer::View>| {
+        let view = &root.buffer_views[view.value()];
+        let start = view.byte_offset.unwrap().0 as usize;
+        &binary[start..start + view.byte_length.0 as usize]
+    };
+    let colours = root.accessors.iter().find(|accessor| accessor.normalized).unwrap();
+    let codes = bytes(colours.buffer_view.unwrap()).as_chunks::<2>().0;
+    let factor = |k: usize| f64::from(u16::from_le_bytes(codes[k])) / 65535.0;
+    let picture = image::load_from_memory(bytes(root.images[0].buffer_view.unwrap())).unwrap();
+    let texel =
+        picture.to_rgb8().get_pixel(0, 0).0.map(|code| linear_from_srgb(f64::from(code) / 255.0));
+    let scale = exposure_scale(&mesh, stamp.exposure);
+    let white = mesh.textures[0].white();
+    let light = mesh.light(0) * scale;
+    let ours = Vec3::from(mesh.textures[0].texels[0]).as_dvec3() * light;
+    [
+        Rgb::new(factor(0), factor(1), factor(2)) * Rgb::from(texel),
+        tone_map_picture(ours, light * white),
+    ]
+}
+
+#[test]
+fn dark_and_saturated_pictures_are_shown_as_our_own_picture_has_them() {
+    let bright = Rgb::splat(300.0);
+    for texels in [
+        vec![[0.02, 0.01, 0.005], [0.01, 0.01, 0.01]],
+        vec![[1.0, 0.0097, 0.0], [1.0, 0.0091, 0.0]],
+        vec![[0.9, 0.8, 0.7], [0.1, 0.05, 0.0]],
+    ] {
+        for radiosity in [bright * 0.01, bright, bright * 30.0, Rgb::new(300.0, 200.0, 0.0)] {
+            let [theirs, ours] = shown_at_a_corner(texels.clone(), radiosity);
+            let code = |linear: Rgb| Rgb::from(linear.to_array().map(srgb_from_linear)) * 255.0;
+            let apart = (code(theirs) - code(ours)).abs().max_element();
+            assert!(apart < 1.5, "{texels:?} {radiosity}: {apart}");
+        }
+    }
+}
+
+#[test]
+fn a_dark_picture_is_brightened_in_the_file_and_dark_again_when_read() {
+    let mut mesh = small_mesh();
+    mesh.textures[0].texels = vec![[0.02, 0.01, 0.0], [0.005, 0.01, 0.015]];
+    let (back, stamp) = round_trip(&mesh, &Stamp::default()).unwrap();
+    for (texel, expected) in back.textures[0].texels.iter().zip(&mesh.textures[0].texels) {
+        let apart = (Vec3::from(*texel) - Vec3::from(*expected)).abs().max_element();
+        assert!(apart < 0.02 * 0.01, "{texel:?}");
+    }
+    let (again, _) = round_trip(&back, &stamp).unwrap();
+    assert!(bytes_of(&back, "a.glb", &stamp) == bytes_of(&again, "a.glb", &stamp));
 }

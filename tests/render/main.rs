@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use glam::DVec3;
-use radiosity::colour::{Rgb, luminance};
+use radiosity::colour::{Rgb, linear_from_srgb, luminance};
 use radiosity::reconstruct::Part;
 use radiosity::render::{Display, Picture, RenderOptions, View, automatic_camera, render, save};
 use radiosity::scene::{Camera, Light, Sky, Texture};
@@ -195,6 +195,28 @@ fn a_texture_replaces_its_mean() {
     let picture = render(&mesh, &camera_in_front(5.0), &small(16, 16));
     let row = &picture.values[8 * 16..9 * 16];
     assert!(row[1].x < 1e-6 && (row[14].x - 1.0).abs() < 1e-6, "{row:?}");
+}
+
+#[test]
+fn a_picture_of_one_grey_is_shown_as_a_plain_surface_and_darker_texels_in_proportion() {
+    let mut mesh = square(1, PI * 0.8);
+    let plain = shown(&render(&mesh, &camera_in_front(5.0), &small(16, 16)), &EXPOSED);
+    mesh.textures.push(Texture {
+        width: 2,
+        height: 1,
+        texels: vec![[0.1; 3], [0.2; 3]],
+        repeat: [false; 2],
+        ..Texture::default()
+    });
+    mesh.texture_mean.fill(Rgb::splat(0.2));
+    mesh.parts[0].texture = Some(0);
+    let picture = shown(&render(&mesh, &camera_in_front(5.0), &small(16, 16)), &EXPOSED);
+    let linear = |image: &image::RgbImage, x| {
+        linear_from_srgb(f64::from(image.get_pixel(x, 8).0[0]) / 255.0)
+    };
+    assert_eq!(picture.get_pixel(14, 8), plain.get_pixel(14, 8));
+    let ratio = linear(&picture, 1) / linear(&picture, 14);
+    assert!((ratio - 0.5).abs() < 0.01, "{ratio}");
 }
 
 #[test]

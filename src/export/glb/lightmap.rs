@@ -28,7 +28,7 @@ pub(crate) fn write(
     out: &mut impl Write,
 ) -> io::Result<()> {
     let mut document = Document::default();
-    let mut materials = Materials::default();
+    let mut materials = Materials::new(map.surfaces.textures.iter().map(|picture| (picture, 1.0)));
     let mut primitives = Vec::new();
     for part in &map.atlas.mesh.parts {
         let material = material(&mut document, &mut materials, (map, part))?;
@@ -71,7 +71,7 @@ fn material(
 ) -> io::Result<Index<Material>> {
     let own = &map.surfaces.materials[part.material as usize];
     let mut texture = |number: Option<u32>| {
-        let stored = number.map(|n| materials.texture(document, &map.surfaces.textures, n));
+        let stored = number.map(|n| materials.texture(document, n));
         stored.transpose().map(|index| index.map(first_uv))
     };
     let (base_color_texture, emissive_texture) =

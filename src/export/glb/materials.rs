@@ -11,27 +11,32 @@ use gltf_json::validation::Checked;
 use gltf_json::{Image, Index, Material, Texture};
 
 use super::document::Document;
+use super::record::Brightened;
 use crate::export::group::Group;
 use crate::export::picture::{self, Coding};
-use crate::reconstruct::TriMesh;
 use crate::scene::Texture as Picture;
 
 /// The pictures that a document holds already.
-#[derive(Debug, Default)]
-pub(super) struct Materials {
+#[derive(Debug)]
+pub(super) struct Materials<'a> {
+    /// The pictures that it may hold, each with what becomes white in the document.
+    pictures: Vec<(&'a Picture, f64)>,
     textures: BTreeMap<u32, Index<Texture>>,
 }
 
-impl Materials {
+impl<'a> Materials<'a> {
+    pub(super) fn new(pictures: impl Iterator<Item = (&'a Picture, f64)>) -> Self {
+        Self { pictures: pictures.collect(), textures: BTreeMap::new() }
+    }
+
     /// Adds the material of `group` and, the first time it is used, its picture.
     pub(super) fn add(
         &mut self,
         document: &mut Document,
-        mesh: &TriMesh,
         group: &Group,
     ) -> io::Result<Index<Material>> {
         let texture = match group.texture {
-            Some(texture) => Some(self.texture(document, &mesh.textures, texture)?),
+            Some(texture) => Some(self.texture(document, texture)?),
             None => None,
         };
         let pbr_metallic_roughness = PbrMetallicRoughness {
@@ -50,22 +55,21 @@ impl Materials {
         }))
     }
 
-    /// The picture of this number among `textures`, stored once.
+    /// The picture of this number, stored once.
     pub(super) fn texture(
         &mut self,
         document: &mut Document,
-        textures: &[Picture],
         number: u32,
     ) -> io::Result<Index<Texture>> {
         if let Some(&known) = self.textures.get(&number) {
             return Ok(known);
         }
-        let texture = &textures[number as usize];
-        let view = document.view(&picture::encoded(texture)?, None);
+        let (texture, white) = self.pictures[number as usize];
+        let view = document.view(&picture::encoded(texture, white)?, None);
         let name = (!texture.name.is_empty()).then(|| texture.name.clone());
         let source = document.root.push(Image {
             buffer_view: Some(view),
-            mime_type: Some(MimeType(Coding::of(texture).mime_type().to_owned())),
+            mime_type: Some(MimeType(Coding::of(texture, white).mime_type().to_owned())),
             name: name.clone(),
             uri: None,
             extensions: None,
@@ -77,7 +81,7 @@ impl Materials {
             sampler: Some(sampler),
             source,
             extensions: None,
-            extras: None,
+            extras: (white != 1.0).then(|| Brightened { white }.to_raw()).transpose()?,
         });
         self.textures.insert(number, index);
         Ok(index)

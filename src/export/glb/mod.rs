@@ -37,10 +37,11 @@ const LIGHT: &str = "LIGHT_";
 /// Writes a mesh that has triangles as GLB.
 pub(crate) fn write(look: &Look, out: &mut impl Write) -> io::Result<()> {
     let mut document = Document::default();
-    let mut materials = Materials::default();
+    let pictures = look.mesh.textures.iter().zip(look.whites.iter().copied());
+    let mut materials = Materials::new(pictures);
     let mut primitives = Vec::new();
     for group in group::by_material(look.mesh) {
-        let material = materials.add(&mut document, look.mesh, &group)?;
+        let material = materials.add(&mut document, &group)?;
         let mut primitive = primitive(&mut document, look, &group);
         primitive.material = Some(material);
         primitives.push(primitive);
@@ -76,7 +77,7 @@ fn primitive(document: &mut Document, look: &Look, group: &Group) -> Primitive {
     let positions: Vec<_> = vertices().map(|v| singles(mesh.positions[v])).collect();
     let normals: Vec<_> = vertices().map(|v| mesh.normals[v].to_array()).collect();
     let radiosity: Vec<_> = vertices().map(|v| singles(mesh.radiosity[v])).collect();
-    let light = group.vertices.iter().map(|&vertex| look.light(vertex).to_array());
+    let light = group.vertices.iter().map(|&vertex| look.shown(vertex, group).to_array());
     let mut attributes = BTreeMap::from([
         (Semantic::Positions, document.positions(&positions)),
         (Semantic::Normals, document.vectors(&normals)),

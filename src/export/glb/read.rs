@@ -10,7 +10,7 @@ use gltf_json::validation::Checked;
 use gltf_json::{Node, Root};
 
 use super::accessors::Arrays;
-use super::record::Record;
+use super::record::{Brightened, Record};
 use super::{LIGHT, RADIOSITY, TEXTURE_MEAN};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
@@ -165,5 +165,24 @@ fn read_texture(arrays: &Arrays, texture: &gltf_json::Texture) -> Outcome<Textur
     let repeats = |mode| mode != Checked::Valid(WrappingMode::ClampToEdge);
     let repeat = sampler.map_or([true; 2], |s| [repeats(s.wrap_s), repeats(s.wrap_t)]);
     let name = image.name.as_deref().unwrap_or_default();
-    decode(name, arrays.view(view)?, repeat).map_err(|error| format!("picture {name}: {error}"))
+    let picture = decode(name, arrays.view(view)?, repeat)
+        .map_err(|error| format!("picture {name}: {error}"))?;
+    Ok(match white(texture) {
+        Some(white) => darkened(picture, white),
+        None => picture,
+    })
+}
+
+/// What white in a brightened picture stands for.
+fn white(texture: &gltf_json::Texture) -> Option<f64> {
+    let extras = texture.extras.as_ref()?;
+    let Brightened { white } = serde_json::from_str(extras.get()).ok()?;
+    (white > 0.0 && white < 1.0).then_some(white)
+}
+
+/// A picture as it was before it was brightened; its file is no longer it.
+fn darkened(picture: Texture, white: f64) -> Texture {
+    let darker = |texel: &[f32; 3]| texel.map(|x| (f64::from(x) * white) as f32);
+    let texels = picture.texels.iter().map(darker).collect();
+    Texture { texels, encoded: Vec::new(), ..picture }
 }
