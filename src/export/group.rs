@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::reconstruct::TriMesh;
+use crate::reconstruct::{Part, TriMesh};
 
 /// The triangles of one material and their vertices, numbered on their own.
 #[derive(Debug)]
@@ -10,6 +10,8 @@ pub(crate) struct Group<'a> {
     pub(crate) name: &'a str,
     /// Index into [`TriMesh::textures`].
     pub(crate) texture: Option<u32>,
+    /// Alpha of the texture below which there is a hole.
+    pub(crate) cutoff: Option<f64>,
     /// Indices into the mesh's lists of vertices, in order of first use.
     pub(crate) vertices: Vec<u32>,
     /// Corners, as indices into `vertices`.
@@ -17,8 +19,10 @@ pub(crate) struct Group<'a> {
 }
 
 impl<'a> Group<'a> {
-    fn new(name: &'a str, texture: Option<u32>) -> Self {
-        Self { name, texture, vertices: Vec::new(), triangles: Vec::new() }
+    fn new(part: &'a Part) -> Self {
+        let Part { name, texture, cutoff, .. } = part;
+        let (vertices, triangles) = (Vec::new(), Vec::new());
+        Self { name, texture: *texture, cutoff: *cutoff, vertices, triangles }
     }
 
     /// Trades the mesh's vertex numbers for the group's own; `numbers` is scratch space.
@@ -44,8 +48,9 @@ pub(crate) fn by_material(mesh: &TriMesh) -> Vec<Group<'_>> {
     let mut groups: Vec<Group> = Vec::new();
     let mut places = BTreeMap::new();
     for part in mesh.parts.iter().filter(|part| !part.triangles.is_empty()) {
-        let place = *places.entry((part.name.as_str(), part.texture)).or_insert_with(|| {
-            groups.push(Group::new(&part.name, part.texture));
+        let look = (part.name.as_str(), part.texture, part.cutoff.map(f64::to_bits));
+        let place = *places.entry(look).or_insert_with(|| {
+            groups.push(Group::new(part));
             groups.len() - 1
         });
         groups[place].triangles.extend_from_slice(&mesh.triangles[part.triangles.clone()]);
@@ -59,8 +64,8 @@ pub(crate) fn by_material(mesh: &TriMesh) -> Vec<Group<'_>> {
 
 /// All triangles and the vertices they use, whatever the material.
 pub(crate) fn whole(mesh: &TriMesh) -> Group<'_> {
-    let mut group = Group::new("", None);
-    group.triangles.clone_from(&mesh.triangles);
+    let (name, triangles) = ("", mesh.triangles.clone());
+    let mut group = Group { name, texture: None, cutoff: None, vertices: Vec::new(), triangles };
     group.renumber(&mut vec![UNUSED; mesh.positions.len()]);
     group
 }

@@ -94,8 +94,9 @@ fn assemble(surfaces: &Surfaces, places: &Places, sheets: &[Sheet]) -> TriMesh {
             }
         }
         if mesh.triangles.len() > first {
-            let (name, texture) = (material.name.clone(), material.texture);
-            mesh.parts.push(Part { name, triangles: first..mesh.triangles.len(), texture });
+            let (name, triangles) = (material.name.clone(), first..mesh.triangles.len());
+            let (texture, cutoff) = (material.texture, material.cutoff);
+            mesh.parts.push(Part { name, triangles, texture, cutoff });
         }
     }
     mesh

@@ -105,4 +105,6 @@ pub struct Part {
     pub triangles: Range<usize>,
     /// Index into [`TriMesh::textures`].
     pub texture: Option<u32>,
+    /// Alpha of the texture, 0..=1, below which there is a hole.
+    pub cutoff: Option<f64>,
 }

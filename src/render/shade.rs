@@ -12,7 +12,7 @@ use super::picture::Subject;
 use super::texture;
 use super::view::View;
 use crate::colour::Rgb;
-use crate::reconstruct::{Irradiance, TriMesh};
+use crate::reconstruct::{Irradiance, Part, TriMesh};
 use crate::scene::Texture;
 use crate::settings::Settings;
 use crate::solver::Solution;
@@ -71,6 +71,17 @@ impl<'a> Shade<'a> {
         let by_triangle = if by_leaf.is_empty() { Vec::new() } else { values.collect() };
         let whites = mesh.textures.iter().map(Texture::white).collect();
         Self { mesh, view, whites, by_triangle, key }
+    }
+
+    /// Whether a ray ends at a triangle, or goes through a hole that is cut out of it.
+    pub(super) fn is_there(&self, hit: &Hit) -> bool {
+        let Some(cutoff) = part_of(self.mesh, hit.triangle).and_then(|part| part.cutoff) else {
+            return true;
+        };
+        let texture = texture_on(self.mesh, hit.triangle);
+        texture.is_none_or(|number| {
+            texture::opacity(&self.mesh.textures[number], uv_at(self.mesh, hit)) >= cutoff
+        })
     }
 
     /// The view's value at a place, linear RGB.
@@ -154,17 +165,24 @@ fn light_at(mesh: &TriMesh, hit: &Hit, is_textured: bool) -> Rgb {
     weighted.map(|(corner, weight)| light(corner) * weight).sum()
 }
 
+fn part_of(mesh: &TriMesh, triangle: usize) -> Option<&Part> {
+    mesh.parts.get(mesh.parts.partition_point(|part| part.triangles.end <= triangle))
+}
+
 /// Number of the texture of a triangle.
 fn texture_on(mesh: &TriMesh, triangle: usize) -> Option<usize> {
-    let part = mesh.parts.partition_point(|part| part.triangles.end <= triangle);
-    let number = mesh.parts.get(part)?.texture? as usize;
+    let number = part_of(mesh, triangle)?.texture? as usize;
     (number < mesh.textures.len()).then_some(number)
 }
 
 /// Colour of a texture at `hit`.
 fn texture_at(mesh: &TriMesh, number: usize, hit: &Hit) -> Rgb {
+    texture::sample(&mesh.textures[number], uv_at(mesh, hit))
+}
+
+/// Texture coordinates at `hit`.
+fn uv_at(mesh: &TriMesh, hit: &Hit) -> Vec2 {
     let corners = mesh.triangles[hit.triangle].map(|corner| corner as usize);
     let weighted = corners.iter().zip(hit.weights.to_array());
-    let uv: Vec2 = weighted.map(|(&corner, weight)| mesh.uvs[corner] * weight as f32).sum();
-    texture::sample(&mesh.textures[number], uv)
+    weighted.map(|(&corner, weight)| mesh.uvs[corner] * weight as f32).sum()
 }

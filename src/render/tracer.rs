@@ -136,7 +136,8 @@ impl<'a> Tracer<'a> {
     /// What is met at a place in a pixel, and in which direction.
     fn look(&self, index: usize, place: Place) -> Option<(DVec3, Hit)> {
         let direction = self.direction(index, place);
-        let hit = self.caster.first(self.rays.eye, direction.normalize(), Sides::Front)?;
+        let ray = (self.rays.eye, direction.normalize());
+        let hit = self.caster.first_of(ray, Sides::Front, |hit| self.shade.is_there(hit))?;
         Some((direction, hit))
     }
 

@@ -32,12 +32,13 @@ use smallvec::SmallVec;
 
 use crate::colour::Rgb;
 
+pub(crate) use self::gltf::sampler_of;
 pub use adding::{Amount, AreaLight};
 pub use camera::Camera;
 pub(crate) use light::SUN_RADIUS;
 pub use light::{DESIGN_SKY, Light, NamedLight, Sky, clear_sun};
 pub use load::load;
-pub use material::{MAX_REFLECTANCE, Material, Texture};
+pub use material::{MAX_REFLECTANCE, Material, Sampler, Texture, Wrap};
 pub(crate) use names::{matches, named};
 pub(crate) use notes::note_count;
 pub use photometry::Photometry;

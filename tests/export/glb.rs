@@ -135,7 +135,9 @@ fn glb_keeps_pictures_and_how_they_repeat() {
     let mesh = small_mesh();
     let (back, _) = round_trip(&mesh, &Stamp::default()).unwrap();
     let [texture] = &back.textures[..] else { panic!("{} textures", back.textures.len()) };
-    assert_eq!((texture.width, texture.height, texture.repeat), (2, 1, [true, false]));
+    assert_eq!((texture.width, texture.height), (2, 1));
+    assert_eq!((texture.sampler, &texture.alpha), (mesh.textures[0].sampler, &vec![255, 40]));
+    assert_eq!(back.parts.iter().map(|part| part.cutoff).collect::<Vec<_>>(), [Some(0.25), None]);
     for (texel, expected) in texture.texels.iter().zip(&mesh.textures[0].texels) {
         assert!((Vec3::from(*texel) - Vec3::from(*expected)).length() < 0.005);
     }
@@ -164,9 +166,9 @@ fn vertices_that_no_triangle_uses_are_not_written() {
 fn parts_of_one_material_become_one_part() {
     let mut mesh = small_mesh();
     mesh.parts = vec![
-        Part { name: "a".to_owned(), triangles: 0..1, texture: None },
-        Part { name: "b".to_owned(), triangles: 1..2, texture: None },
-        Part { name: "a".to_owned(), triangles: 2..3, texture: None },
+        Part { name: "a".to_owned(), triangles: 0..1, texture: None, cutoff: None },
+        Part { name: "b".to_owned(), triangles: 1..2, texture: None, cutoff: None },
+        Part { name: "a".to_owned(), triangles: 2..3, texture: None, cutoff: None },
     ];
     let (back, _) = round_trip(&mesh, &Stamp::default()).unwrap();
     let parts: Vec<_> =

@@ -15,7 +15,7 @@ use gltf_json::{Asset, Index, Material};
 use serde_json::json;
 
 use super::document::Document;
-use super::materials::{Materials, first_uv};
+use super::materials::{Materials, alpha_cutoff, alpha_mode, first_uv};
 use super::record::Record;
 use crate::export::look::{Look, singles};
 use crate::lightmap::{CoarsePart, Lightmap};
@@ -89,6 +89,8 @@ fn material(
             metallic_factor: StrengthFactor(0.0),
             ..PbrMetallicRoughness::default()
         },
+        alpha_mode: alpha_mode(own.cutoff),
+        alpha_cutoff: alpha_cutoff(own.cutoff),
         emissive_factor: EmissiveFactor(singles(own.emission / strength)),
         emissive_texture: emissive_texture.filter(|_| own.emission.max_element() > 0.0),
         extensions: (strength > 1.0).then(|| MaterialExtensions {

@@ -5,7 +5,7 @@ use std::io;
 
 use gltf_json::extensions::material::{Material as MaterialExtensions, Unlit};
 use gltf_json::image::MimeType;
-use gltf_json::material::{PbrMetallicRoughness, StrengthFactor};
+use gltf_json::material::{AlphaCutoff, AlphaMode, PbrMetallicRoughness, StrengthFactor};
 use gltf_json::texture::{Info, MagFilter, MinFilter, Sampler, WrappingMode};
 use gltf_json::validation::Checked;
 use gltf_json::{Image, Index, Material, Texture};
@@ -14,7 +14,7 @@ use super::document::Document;
 use super::record::Brightened;
 use crate::export::group::Group;
 use crate::export::picture::{self, Coding};
-use crate::scene::Texture as Picture;
+use crate::scene::{Texture as Picture, Wrap};
 
 /// The pictures that a document holds already.
 #[derive(Debug)]
@@ -47,6 +47,8 @@ impl<'a> Materials<'a> {
         Ok(document.root.push(Material {
             name: Some(group.name.to_owned()),
             pbr_metallic_roughness,
+            alpha_mode: alpha_mode(group.cutoff),
+            alpha_cutoff: alpha_cutoff(group.cutoff),
             extensions: Some(MaterialExtensions {
                 unlit: Some(Unlit {}),
                 ..MaterialExtensions::default()
@@ -75,7 +77,7 @@ impl<'a> Materials<'a> {
             extensions: None,
             extras: None,
         });
-        let sampler = document.root.push(sampler(texture.repeat));
+        let sampler = document.root.push(sampler(texture.sampler));
         let index = document.root.push(Texture {
             name,
             sampler: Some(sampler),
@@ -88,17 +90,31 @@ impl<'a> Materials<'a> {
     }
 }
 
+/// How a material with holes where alpha is below `cutoff`, or without holes, is shown.
+pub(super) fn alpha_mode(cutoff: Option<f64>) -> Checked<AlphaMode> {
+    Checked::Valid(if cutoff.is_some() { AlphaMode::Mask } else { AlphaMode::Opaque })
+}
+
+pub(super) fn alpha_cutoff(cutoff: Option<f64>) -> Option<AlphaCutoff> {
+    cutoff.map(|cutoff| AlphaCutoff(cutoff as f32))
+}
+
 /// A texture laid on by the first coordinates.
 pub(super) fn first_uv(index: Index<Texture>) -> Info {
     Info { index, tex_coord: 0, extensions: None, extras: None }
 }
 
-fn sampler(repeat: [bool; 2]) -> Sampler {
-    let [wrap_s, wrap_t] = repeat.map(|repeat| {
-        Checked::Valid(if repeat { WrappingMode::Repeat } else { WrappingMode::ClampToEdge })
+fn sampler(read: crate::scene::Sampler) -> Sampler {
+    let [wrap_s, wrap_t] = read.wrap.map(|wrap| {
+        Checked::Valid(match wrap {
+            Wrap::Repeat => WrappingMode::Repeat,
+            Wrap::Mirror => WrappingMode::MirroredRepeat,
+            Wrap::Clamp => WrappingMode::ClampToEdge,
+        })
     });
+    let near = if read.nearest { MagFilter::Nearest } else { MagFilter::Linear };
     Sampler {
-        mag_filter: Some(Checked::Valid(MagFilter::Linear)),
+        mag_filter: Some(Checked::Valid(near)),
         min_filter: Some(Checked::Valid(MinFilter::LinearMipmapLinear)),
         wrap_s,
         wrap_t,

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use glam::{DVec3, Vec2, Vec3};
+use gltf_json::material::AlphaMode;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
-use gltf_json::texture::WrappingMode;
 use gltf_json::validation::Checked;
 use gltf_json::{Node, Root};
 
@@ -16,7 +16,7 @@ use crate::colour::Rgb;
 use crate::error::{Error, Result};
 use crate::export::Stamp;
 use crate::reconstruct::{LightShare, Part, TriMesh};
-use crate::scene::{Texture, decode};
+use crate::scene::{Texture, decode, sampler_of};
 use crate::surface::LightGroup;
 
 const NO_RADIOSITY: &str = "carries no radiosity (attribute _RADIOSITY); `radiosity solve SCENE -o FILE.glb` makes such a file";
@@ -92,8 +92,8 @@ fn append(mesh: &mut TriMesh, arrays: &Arrays, primitive: &Primitive) -> Outcome
     let triangles = arrays.triangles(indices, count)?;
     let start = mesh.triangles.len();
     mesh.triangles.extend(triangles.iter().map(|corners| corners.map(|corner| offset + corner)));
-    let (name, texture) = material(arrays, primitive)?;
-    mesh.parts.push(Part { name, triangles: start..mesh.triangles.len(), texture });
+    let look = material(arrays, primitive)?;
+    mesh.parts.push(Part { triangles: start..mesh.triangles.len(), ..look });
     Ok(())
 }
 
@@ -138,10 +138,10 @@ fn append_vertices(mesh: &mut TriMesh, arrays: &Arrays, primitive: &Primitive) -
     Ok(())
 }
 
-/// The name of a primitive's material, and its texture.
-fn material(arrays: &Arrays, primitive: &Primitive) -> Outcome<(String, Option<u32>)> {
+/// A part without triangles that has the name of a primitive's material, its texture and its holes.
+fn material(arrays: &Arrays, primitive: &Primitive) -> Outcome<Part> {
     let Some(index) = primitive.material else {
-        return Ok((String::new(), None));
+        return Ok(Part::default());
     };
     let materials = &arrays.root.materials;
     let material = materials.get(index.value()).ok_or("a primitive's material is missing")?;
@@ -150,7 +150,14 @@ fn material(arrays: &Arrays, primitive: &Primitive) -> Outcome<(String, Option<u
     if texture.is_some_and(|texture| texture >= arrays.root.textures.len()) {
         return Err("a material's texture is missing".to_owned());
     }
-    Ok((material.name.clone().unwrap_or_default(), texture.map(|texture| texture as u32)))
+    let is_cut_out = material.alpha_mode == Checked::Valid(AlphaMode::Mask);
+    let cutoff = material.alpha_cutoff.map_or(0.5, |cutoff| f64::from(cutoff.0));
+    Ok(Part {
+        name: material.name.clone().unwrap_or_default(),
+        texture: texture.map(|texture| texture as u32),
+        cutoff: is_cut_out.then_some(cutoff),
+        ..Part::default()
+    })
 }
 
 fn textures(arrays: &Arrays) -> Outcome<Vec<Texture>> {
@@ -162,10 +169,9 @@ fn read_texture(arrays: &Arrays, texture: &gltf_json::Texture) -> Outcome<Textur
     let image = root.images.get(texture.source.value()).ok_or("a texture has no image")?;
     let view = image.buffer_view.ok_or("an image is outside of the file")?;
     let sampler = texture.sampler.and_then(|index| root.samplers.get(index.value()));
-    let repeats = |mode| mode != Checked::Valid(WrappingMode::ClampToEdge);
-    let repeat = sampler.map_or([true; 2], |s| [repeats(s.wrap_s), repeats(s.wrap_t)]);
+    let sampler = sampler.map(sampler_of).unwrap_or_default();
     let name = image.name.as_deref().unwrap_or_default();
-    let picture = decode(name, arrays.view(view)?, repeat)
+    let picture = decode(name, arrays.view(view)?, sampler)
         .map_err(|error| format!("picture {name}: {error}"))?;
     Ok(match white(texture) {
         Some(white) => darkened(picture, white),
