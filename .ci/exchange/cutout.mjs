@@ -70,7 +70,7 @@ export function writeCutOut(directory, name) {
     materials: [
       { name: "floor", ...pictured(1) },
       { name: "wall", ...plain([0.7, 0.7, 0.7, 1]) },
-      { name: "leaf", alphaMode: "MASK", alphaCutoff: 0.5, doubleSided: true, ...pictured(0) },
+      { name: "leaf", alphaMode: "MASK", alphaCutoff: 0.5, ...pictured(0) },
       {
         name: "lamp",
         emissiveFactor: [1, 0.9, 0.75],

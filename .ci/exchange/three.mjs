@@ -52,11 +52,13 @@ function serve(roots) {
   return new Promise((done) => server.listen(0, "127.0.0.1", () => done(server)));
 }
 
-// What a GLB says of its primitives.
+// What a GLB says of its primitives, in the order of its nodes.
 function primitives(path) {
   const bytes = readFileSync(path);
   const json = JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString());
-  return json.meshes[0].primitives.map(({ attributes, indices }) => ({
+  const below = (index) => [json.nodes[index], ...(json.nodes[index].children ?? []).flatMap(below)];
+  const nodes = json.scenes[json.scene].nodes.flatMap(below).filter(({ mesh }) => mesh !== undefined);
+  return nodes.flatMap(({ mesh }) => json.meshes[mesh].primitives).map(({ attributes, indices }) => ({
     vertices: json.accessors[attributes.POSITION].count,
     corners: json.accessors[indices].count,
     attributes: Object.keys(attributes).length,

@@ -1,5 +1,7 @@
 //! What every writer asks of a mesh: its colours on a screen and a few words about them.
 
+use glam::DVec3;
+
 use super::Stamp;
 use super::group::Group;
 use crate::colour::{Rgb, srgb_from_linear};
@@ -17,6 +19,8 @@ pub(crate) struct Look<'a> {
     pub(crate) stamp: &'a Stamp,
     /// Factor on radiosity before the tone curve, m²/W.
     pub(crate) scale: f64,
+    /// [`TriMesh::local_origin`].
+    pub(crate) origin: DVec3,
     /// [`Texture::white`] of the mesh's textures.
     pub(crate) whites: Vec<f64>,
 }
@@ -27,7 +31,13 @@ impl<'a> Look<'a> {
         debug_assert!(mesh.normals.iter().all(|normal| normal.is_normalized()));
         debug_assert!(mesh.radiosity.iter().all(|radiosity| radiosity.is_finite()));
         let whites = mesh.textures.iter().map(Texture::white).collect();
-        Self { mesh, stamp, scale: exposure_scale(mesh, stamp.exposure), whites }
+        Self {
+            mesh,
+            stamp,
+            scale: exposure_scale(mesh, stamp.exposure),
+            origin: mesh.local_origin(),
+            whites,
+        }
     }
 
     /// Linear colour, 0..=1, of the light that leaves a vertex.
@@ -71,7 +81,7 @@ pub(crate) fn coded(colour: Rgb) -> [f64; 3] {
 }
 
 /// The nearest finite single-precision numbers.
-pub(crate) fn singles(vector: glam::DVec3) -> [f32; 3] {
+pub(crate) fn singles(vector: DVec3) -> [f32; 3] {
     let limit = f64::from(f32::MAX);
     vector.to_array().map(|x| x.clamp(-limit, limit) as f32)
 }

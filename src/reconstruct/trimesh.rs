@@ -7,7 +7,8 @@ use glam::{DVec3, Vec2, Vec3};
 use super::LightShare;
 use crate::colour::Rgb;
 use crate::mesh::ElementId;
-use crate::scene::Texture;
+use crate::scene::boxes::{Bounds, local_origin};
+use crate::scene::{Camera, Node, Texture};
 
 /// A conforming triangle mesh; all per-vertex lists are as long as `positions`.
 #[derive(Clone, Debug, Default)]
@@ -25,10 +26,16 @@ pub struct TriMesh {
     pub texture_mean: Vec<Rgb>,
     /// Corners, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
-    /// Consecutive runs of triangles that share a material; together they are all triangles.
+    /// Consecutive runs of triangles that share a material and an object; together they are all triangles.
     pub parts: Vec<Part>,
     /// Pictures that parts refer to.
     pub textures: Vec<Texture>,
+    /// Names of the objects that parts belong to.
+    pub objects: Vec<String>,
+    /// The hierarchy that objects and cameras stand in; objects without a node stand by themselves.
+    pub nodes: Vec<Node>,
+    /// The scene's cameras.
+    pub cameras: Vec<Camera>,
     /// The light of each group of lights, if it was kept apart: then radiosity is their sum.
     pub lights: Vec<LightShare>,
     /// What arrives at each vertex; empty in a mesh read from a file.
@@ -61,6 +68,12 @@ impl TriMesh {
         let light =
             Rgb::select(is_known, radiosity / mean, Rgb::splat(radiosity[channel] / mean[channel]));
         light.max(Rgb::splat(TRACE * light.max_element()))
+    }
+
+    /// Where coordinates in single precision are to begin, m: the origin, unless the mesh is far from it.
+    pub fn local_origin(&self) -> DVec3 {
+        let bounds: Bounds = self.bounds();
+        local_origin(bounds).unwrap_or_default()
     }
 
     /// Least and greatest coordinates of the triangles, m; both zero if there is none.
@@ -96,7 +109,7 @@ impl Irradiance {
     }
 }
 
-/// A run of triangles of one material.
+/// A run of triangles of one material and object.
 #[derive(Clone, Debug, Default)]
 pub struct Part {
     /// The material's name.
@@ -107,4 +120,6 @@ pub struct Part {
     pub texture: Option<u32>,
     /// Alpha of the texture, 0..=1, below which there is a hole.
     pub cutoff: Option<f64>,
+    /// Index into [`TriMesh::objects`].
+    pub object: Option<u32>,
 }

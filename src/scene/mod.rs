@@ -56,6 +56,8 @@ pub struct Scene {
     pub faces: Vec<Face>,
     /// Names of the objects (OBJ `o`/`g`, glTF nodes) that faces belong to.
     pub objects: Vec<String>,
+    /// The hierarchy that objects and cameras stand in, parents before children; empty in an OBJ file, which has none.
+    pub nodes: Vec<Node>,
     /// How faces look and glow.
     pub materials: Vec<Material>,
     /// Pictures that materials refer to.
@@ -66,6 +68,19 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// Repairs and warnings, a line each, for the user to read.
     pub notes: Vec<String>,
+}
+
+/// A node of a scene's hierarchy. What it moves is where it belongs already.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Node {
+    /// The file's name for it, empty if it has none.
+    pub name: String,
+    /// Index into [`Scene::nodes`], below its own.
+    pub parent: Option<u32>,
+    /// Index into [`Scene::objects`].
+    pub object: Option<u32>,
+    /// Index into [`Scene::cameras`].
+    pub camera: Option<u32>,
 }
 
 /// A planar polygon; its per-corner lists are empty or as long as `vertices`.

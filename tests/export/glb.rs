@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 use radiosity::Result;
 use radiosity::colour::{Rgb, linear_from_srgb, srgb_from_linear};
 use radiosity::export::{Stamp, load_solved, save};
 use radiosity::reconstruct::{Part, TriMesh};
+use radiosity::scene::{Camera, Node};
 use radiosity::tone::{Exposure, exposure_scale, tone_map, tone_map_picture};
 
 use crate::meshes::{bytes_of, in_new_directory, meshes, small_mesh};
@@ -166,9 +167,9 @@ fn vertices_that_no_triangle_uses_are_not_written() {
 fn parts_of_one_material_become_one_part() {
     let mut mesh = small_mesh();
     mesh.parts = vec![
-        Part { name: "a".to_owned(), triangles: 0..1, texture: None, cutoff: None },
-        Part { name: "b".to_owned(), triangles: 1..2, texture: None, cutoff: None },
-        Part { name: "a".to_owned(), triangles: 2..3, texture: None, cutoff: None },
+        Part { name: "a".to_owned(), triangles: 0..1, texture: None, cutoff: None, object: None },
+        Part { name: "b".to_owned(), triangles: 1..2, texture: None, cutoff: None, object: None },
+        Part { name: "a".to_owned(), triangles: 2..3, texture: None, cutoff: None, object: None },
     ];
     let (back, _) = round_trip(&mesh, &Stamp::default()).unwrap();
     let parts: Vec<_> =
@@ -242,4 +243,92 @@ fn a_dark_picture_is_brightened_in_the_file_and_dark_again_when_read() {
     }
     let (again, _) = round_trip(&back, &stamp).unwrap();
     assert!(bytes_of(&back, "a.glb", &stamp) == bytes_of(&again, "a.glb", &stamp));
+}
+
+/// The small mesh as two objects, one in a room, and a camera; `at` is where it stands.
+fn furnished(at: DVec3) -> TriMesh {
+    let mut mesh = small_mesh();
+    mesh.positions.iter_mut().for_each(|position| *position += at);
+    mesh.objects = vec!["table".to_owned(), "rug".to_owned()];
+    let node = |name: &str, parent, object, camera| {
+        let name = name.to_owned();
+        Node { name, parent, object, camera }
+    };
+    mesh.nodes = vec![
+        node("house", None, None, None),
+        node("room", Some(0), Some(1), None),
+        node("view", Some(0), None, Some(0)),
+    ];
+    mesh.cameras = vec![Camera {
+        name: "view".to_owned(),
+        eye: at + DVec3::new(0.0, 3.0, 4.0),
+        target: at,
+        up: DVec3::Y,
+        vertical_fov: 0.8,
+    }];
+    mesh.parts[0].object = Some(1);
+    mesh.parts[1].object = Some(0);
+    mesh
+}
+
+#[test]
+fn objects_hierarchy_and_cameras_come_back() {
+    let mesh = furnished(DVec3::ZERO);
+    let (root, _) = chunks(&bytes_of(&mesh, "m.glb", &Stamp::default()));
+    let names: Vec<_> = root.nodes.iter().map(|node| node.name.as_deref().unwrap()).collect();
+    assert_eq!(names, ["house", "room", "view", "table"]);
+    assert!(
+        root.nodes
+            .iter()
+            .filter(|node| node.camera.is_none())
+            .all(|node| node.translation.is_none())
+    );
+    assert_eq!((root.meshes.len(), root.materials.len(), root.scenes[0].nodes.len()), (2, 2, 2));
+    let (back, stamp) = round_trip(&mesh, &Stamp::default()).unwrap();
+    let object = |part: &Part| back.objects[part.object.unwrap() as usize].clone();
+    let found: Vec<_> = back.parts.iter().map(|part| (part.name.as_str(), object(part))).collect();
+    assert_eq!(found, [("bare floor", "table".to_owned()), ("carpet", "rug".to_owned())]);
+    let [camera] = &back.cameras[..] else { panic!("{:?}", back.cameras) };
+    let [seen, meant] =
+        [camera, &mesh.cameras[0]].map(|camera| (camera.target - camera.eye).normalize());
+    assert!(camera.eye.distance(mesh.cameras[0].eye) < 1e-6 && seen.distance(meant) < 1e-6);
+    let (again, _) = round_trip(&back, &stamp).unwrap();
+    assert!(bytes_of(&back, "a.glb", &stamp) == bytes_of(&again, "a.glb", &stamp));
+}
+
+#[test]
+fn a_mesh_far_from_the_origin_keeps_its_shape() {
+    let at = DVec3::new(448_262.25, 35.5, -5_411_932.125);
+    let mesh = furnished(at);
+    let (root, _) = chunks(&bytes_of(&mesh, "m.glb", &Stamp::default()));
+    let largest = root.accessors.iter().filter_map(|accessor| accessor.max.clone());
+    let largest = largest.flat_map(|max| serde_json::from_value::<[f64; 3]>(max).unwrap());
+    assert!(largest.map(f64::abs).fold(0.0, f64::max) < 10.0);
+    let (back, _) = round_trip(&mesh, &Stamp::default()).unwrap();
+    let near = |a: &DVec3| mesh.positions.iter().any(|b| a.distance(*b) < 1e-5);
+    assert!(back.positions.iter().all(near), "{:?}", back.positions);
+    assert!(back.cameras[0].eye.distance(mesh.cameras[0].eye) < 1e-5, "{:?}", back.cameras);
+    assert_eq!(
+        back.nodes,
+        mesh.nodes[..]
+            .iter()
+            .cloned()
+            .chain([Node { name: "table".to_owned(), object: Some(0), ..Node::default() }])
+            .collect::<Vec<_>>()
+    );
+}
+
+#[test]
+fn a_mesh_that_another_program_has_turned_is_refused() {
+    let bytes = bytes_of(&furnished(DVec3::splat(1e5)), "m.glb", &Stamp::default());
+    let moves = b"\"translation\":";
+    let place = bytes.windows(moves.len()).rposition(|window| window == moves).unwrap();
+    let mut changed = bytes.clone();
+    changed[place..][..moves.len()].copy_from_slice(b"\"scale\":      ");
+    in_new_directory(|directory| {
+        let path = directory.join("turned.glb");
+        fs::write(&path, &changed).unwrap();
+        let told = load_solved(&path).unwrap_err().to_string();
+        assert!(told.contains("rearranged"), "{told}");
+    });
 }

@@ -35,8 +35,15 @@ pub(crate) fn small_mesh() -> TriMesh {
                 triangles: 0..2,
                 texture: Some(0),
                 cutoff: Some(0.25),
+                object: None,
             },
-            Part { name: "bare floor".to_owned(), triangles: 2..3, texture: None, cutoff: None },
+            Part {
+                name: "bare floor".to_owned(),
+                triangles: 2..3,
+                texture: None,
+                cutoff: None,
+                object: None,
+            },
         ],
         textures: vec![Texture {
             name: "stripes".to_owned(),
@@ -106,6 +113,7 @@ fn assemble(
             triangles,
             texture: textured.then_some(0),
             cutoff: None,
+            object: None,
         });
     }
     mesh

@@ -264,3 +264,39 @@ fn points_and_lines_are_ignored_with_a_note() {
     asset.json["meshes"][0]["primitives"].as_array_mut().unwrap().push(lines);
     assert_eq!(asset.load().notes, ["1 primitive of points or lines ignored"]);
 }
+
+#[test]
+fn the_hierarchy_of_nodes_is_kept_with_what_stands_in_it() {
+    let scene = Asset::triangle()
+        .set(
+            "/nodes",
+            json!([{"name": "house", "children": [1, 2]}, {"name": "rug", "mesh": 0},
+            {"name": "view", "camera": 0, "translation": [0, 1, 2]}]),
+        )
+        .set("/scenes", json!([{"nodes": [0]}]))
+        .set("/scene", json!(0))
+        .set(
+            "/cameras",
+            json!([{"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.1}}]),
+        )
+        .load();
+    let found: Vec<_> = scene
+        .nodes
+        .iter()
+        .map(|node| (node.name.as_str(), node.parent, node.object, node.camera))
+        .collect();
+    let expected = [
+        ("house", None, None, None),
+        ("rug", Some(0), Some(0), None),
+        ("view", Some(0), None, Some(0)),
+    ];
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn a_scene_far_from_the_origin_is_told() {
+    let triangle = Asset::triangle();
+    assert!(triangle.load().notes.is_empty(), "near");
+    let far = triangle.set("/nodes/0", json!({"mesh": 0, "translation": [448262, 35, -5411932]}));
+    assert!(far.load().notes.iter().any(|note| note.contains("from the origin")));
+}

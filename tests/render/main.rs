@@ -38,7 +38,13 @@ fn add_grid(mesh: &mut TriMesh, [origin, u, v]: [DVec3; 3], cells: u32, radiosit
         }
     }
     let triangles = first_triangle..mesh.triangles.len();
-    mesh.parts.push(Part { name: "grid".to_owned(), triangles, texture: None, cutoff: None });
+    mesh.parts.push(Part {
+        name: "grid".to_owned(),
+        triangles,
+        texture: None,
+        cutoff: None,
+        object: None,
+    });
 }
 
 /// A square of 2 m in the plane z = 0 that faces +z, around the origin.

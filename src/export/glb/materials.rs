@@ -22,20 +22,27 @@ pub(super) struct Materials<'a> {
     /// The pictures that it may hold, each with what becomes white in the document.
     pictures: Vec<(&'a Picture, f64)>,
     textures: BTreeMap<u32, Index<Texture>>,
+    /// The materials that are there already.
+    known: BTreeMap<(String, Option<u32>, Option<u64>), Index<Material>>,
 }
 
 impl<'a> Materials<'a> {
     pub(super) fn new(pictures: impl Iterator<Item = (&'a Picture, f64)>) -> Self {
-        Self { pictures: pictures.collect(), textures: BTreeMap::new() }
+        Self { pictures: pictures.collect(), textures: BTreeMap::new(), known: BTreeMap::new() }
     }
 
-    /// Adds the material of `group` and, the first time it is used, its picture.
+    /// The material of `group`, added the first time it is used, with its picture.
     pub(super) fn add(
         &mut self,
         document: &mut Document,
         group: &Group,
     ) -> io::Result<Index<Material>> {
-        let texture = match group.texture {
+        let (name, texture, cutoff) = group.look();
+        let key = (name.to_owned(), texture, cutoff);
+        if let Some(&known) = self.known.get(&key) {
+            return Ok(known);
+        }
+        let texture = match texture {
             Some(texture) => Some(self.texture(document, texture)?),
             None => None,
         };
@@ -44,7 +51,7 @@ impl<'a> Materials<'a> {
             metallic_factor: StrengthFactor(0.0),
             ..PbrMetallicRoughness::default()
         };
-        Ok(document.root.push(Material {
+        let material = document.root.push(Material {
             name: Some(group.name.to_owned()),
             pbr_metallic_roughness,
             alpha_mode: alpha_mode(group.cutoff),
@@ -54,7 +61,9 @@ impl<'a> Materials<'a> {
                 ..MaterialExtensions::default()
             }),
             ..Material::default()
-        }))
+        });
+        self.known.insert(key, material);
+        Ok(material)
     }
 
     /// The picture of this number, stored once.
@@ -112,10 +121,14 @@ fn sampler(read: crate::scene::Sampler) -> Sampler {
             Wrap::Clamp => WrappingMode::ClampToEdge,
         })
     });
-    let near = if read.nearest { MagFilter::Nearest } else { MagFilter::Linear };
+    // Blender goes by both, three.js by either in its turn.
+    let (near, far) = match read.nearest {
+        true => (MagFilter::Nearest, MinFilter::NearestMipmapLinear),
+        false => (MagFilter::Linear, MinFilter::LinearMipmapLinear),
+    };
     Sampler {
         mag_filter: Some(Checked::Valid(near)),
-        min_filter: Some(Checked::Valid(MinFilter::LinearMipmapLinear)),
+        min_filter: Some(Checked::Valid(far)),
         wrap_s,
         wrap_t,
         ..Sampler::default()

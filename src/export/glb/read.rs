@@ -4,12 +4,13 @@ use std::fs;
 use std::path::Path;
 
 use glam::{DVec3, Vec2, Vec3};
+use gltf_json::Root;
 use gltf_json::material::AlphaMode;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
-use gltf_json::{Node, Root};
 
 use super::accessors::Arrays;
+use super::hung::Hung;
 use super::record::{Brightened, Record};
 use super::{LIGHT, RADIOSITY, TEXTURE_MEAN};
 use crate::colour::Rgb;
@@ -20,6 +21,8 @@ use crate::scene::{Texture, decode, sampler_of};
 use crate::surface::LightGroup;
 
 const NO_RADIOSITY: &str = "carries no radiosity (attribute _RADIOSITY); `radiosity solve SCENE -o FILE.glb` makes such a file";
+
+const REARRANGED: &str = "was rearranged by another program; write it anew with radiosity";
 
 type Outcome<T> = std::result::Result<T, String>;
 
@@ -41,24 +44,22 @@ fn read(bytes: &[u8]) -> Outcome<(TriMesh, Stamp)> {
     let lights = record.iter().flat_map(|record| &record.lights);
     let share = |group: &LightGroup| LightShare { group: group.clone(), radiosity: Vec::new() };
     let mut mesh = TriMesh { lights: lights.map(share).collect(), ..TriMesh::default() };
-    for primitive in root.meshes.iter().flat_map(|mesh| &mesh.primitives) {
-        append(&mut mesh, &arrays, primitive)?;
+    let (hung, mut objects) = (Hung::new(&root), Vec::new());
+    for (number, primitives) in root.meshes.iter().map(|mesh| &mesh.primitives).enumerate() {
+        let offset = hung.offset(number).ok_or(REARRANGED)?;
+        let (object, first) = (hung.object(&mut mesh, number), mesh.positions.len());
+        for primitive in primitives {
+            append(&mut mesh, &arrays, (primitive, object))?;
+        }
+        mesh.positions[first..].iter_mut().for_each(|position| *position += offset);
+        objects.push(object);
     }
+    hung.read(&mut mesh, &objects);
     mesh.textures = textures(&arrays)?;
-    if root.nodes.iter().any(is_moved) {
-        return Err("was rearranged by another program; write it anew with radiosity".to_owned());
-    }
     if mesh.triangles.is_empty() {
         return Err("holds no triangles".to_owned());
     }
     Ok((mesh, record.map(Record::into_stamp).unwrap_or_default()))
-}
-
-fn is_moved(node: &Node) -> bool {
-    node.matrix.is_some()
-        || node.translation.is_some()
-        || node.rotation.is_some()
-        || node.scale.is_some()
 }
 
 /// The JSON and the binary chunk.
@@ -77,8 +78,12 @@ fn chunks(bytes: &[u8]) -> Outcome<(&[u8], &[u8])> {
     }
 }
 
-/// Adds one primitive as one part.
-fn append(mesh: &mut TriMesh, arrays: &Arrays, primitive: &Primitive) -> Outcome<()> {
+/// Adds one primitive of an object as one part.
+fn append(
+    mesh: &mut TriMesh,
+    arrays: &Arrays,
+    (primitive, object): (&Primitive, Option<u32>),
+) -> Outcome<()> {
     if primitive.mode != Checked::Valid(Mode::Triangles) {
         return Err("holds points or lines, which radiosity does not write".to_owned());
     }
@@ -93,7 +98,7 @@ fn append(mesh: &mut TriMesh, arrays: &Arrays, primitive: &Primitive) -> Outcome
     let start = mesh.triangles.len();
     mesh.triangles.extend(triangles.iter().map(|corners| corners.map(|corner| offset + corner)));
     let look = material(arrays, primitive)?;
-    mesh.parts.push(Part { triangles: start..mesh.triangles.len(), ..look });
+    mesh.parts.push(Part { triangles: start..mesh.triangles.len(), object, ..look });
     Ok(())
 }
 

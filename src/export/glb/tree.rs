@@ -37,8 +37,10 @@ pub(super) struct Tree<'a> {
 impl Tree<'_> {
     /// Adds the scene with its meshes, which come by object.
     pub(super) fn add(&self, root: &mut Root, meshes: BTreeMap<Option<u32>, Vec<Primitive>>) {
-        let mut meshes: BTreeMap<Option<u32>, Index<Mesh>> =
-            meshes.into_iter().map(|(object, list)| (object, self.mesh(root, object, list))).collect();
+        let mut meshes: BTreeMap<Option<u32>, Index<Mesh>> = meshes
+            .into_iter()
+            .map(|(object, list)| (object, self.mesh(root, object, list)))
+            .collect();
         let mut cameras: Vec<Option<&Camera>> = self.cameras.iter().map(Some).collect();
         let first = root.nodes.len() as u32;
         let mut roots = Vec::new();
@@ -84,7 +86,12 @@ impl Tree<'_> {
         root.scene = Some(root.push(Scene { name, nodes: roots, extensions: None, extras: None }));
     }
 
-    fn mesh(&self, root: &mut Root, object: Option<u32>, primitives: Vec<Primitive>) -> Index<Mesh> {
+    fn mesh(
+        &self,
+        root: &mut Root,
+        object: Option<u32>,
+        primitives: Vec<Primitive>,
+    ) -> Index<Mesh> {
         let name = Some(self.name(object));
         root.push(Mesh { name, primitives, weights: None, extensions: None, extras: None })
     }
