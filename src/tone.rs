@@ -134,6 +134,16 @@ pub fn tone_map(exposed_radiosity: Rgb) -> Rgb {
     (colour * (mapped / peak)).lerp(Rgb::splat(mapped), white).clamp(Rgb::ZERO, Rgb::ONE)
 }
 
+/// Linear colour on a screen, 0..=1 per channel, of what a picture on a surface sends, `exposed`, where a texel as
+/// bright as its brightest channel in all channels would send `white`; both linear, 0 and up.
+///
+/// The white is [tone mapped](tone_map), and what is sent keeps its ratio to it: so a colour at each vertex times the
+/// picture is what is seen, in all programs that multiply them. A picture of one grey looks like a plain surface.
+pub fn tone_map_picture(exposed: Rgb, white: Rgb) -> Rgb {
+    let share = Rgb::select(white.cmpgt(Rgb::ZERO), exposed / white, Rgb::ONE);
+    (tone_map(white) * share).clamp(Rgb::ZERO, Rgb::ONE)
+}
+
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
@@ -220,6 +230,19 @@ mod tests {
         #[test]
         fn darks_are_not_changed(colour in prop::array::uniform3(0.0..SHOULDER)) {
             prop_assert_eq!(tone_map(Rgb::from_array(colour)), Rgb::from_array(colour));
+        }
+
+        #[test]
+        fn a_picture_of_one_grey_looks_like_a_plain_surface_and_darker_texels_keep_their_ratio(
+            light in prop::array::uniform3(0.0..10.0_f64),
+            white in 0.01..1.0_f64,
+            texel in prop::array::uniform3(0.0..1.0_f64),
+        ) {
+            let (light, texel) = (Rgb::from_array(light), Rgb::from_array(texel));
+            let plain = tone_map(light * white);
+            prop_assert!(tone_map_picture(light * white, light * white).abs_diff_eq(plain, 1e-12));
+            let shown = tone_map_picture(light * white * texel, light * white);
+            prop_assert!(shown.abs_diff_eq(plain * texel, 1e-9), "{} {}", shown, plain * texel);
         }
 
         #[test]

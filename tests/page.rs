@@ -10,6 +10,7 @@ use radiosity::colour::Rgb;
 use radiosity::page::{
     self, Cell, Markup, Model, Step, Table, Viewer, WipePicture, columns, facts, html,
 };
+use radiosity::reconstruct::Part;
 use radiosity::scene::Camera;
 use serde_json::{Value, json};
 
@@ -241,4 +242,15 @@ proptest! {
         let record = json_after(&page, "<script type=\"application/json\">");
         prop_assert_eq!(record["steps"][0]["label"].as_str(), Some(text.as_str()));
     }
+}
+
+#[test]
+fn a_viewer_says_that_pictures_on_surfaces_are_left_out() {
+    let told = |texture| {
+        let mut mesh = waves(2);
+        let triangles = 0..mesh.triangles.len();
+        mesh.parts.push(Part { triangles, texture, ..Part::default() });
+        viewer(&[step("", Model::of_mesh(&mesh))], "").into_string().contains("left out here")
+    };
+    assert_eq!([Some(0), None].map(told), [true, false]);
 }

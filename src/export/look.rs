@@ -1,8 +1,12 @@
 //! What every writer asks of a mesh: its colours on a screen and a few words about them.
 
+use glam::DVec3;
+
 use super::Stamp;
+use super::group::Group;
 use crate::colour::{Rgb, srgb_from_linear};
 use crate::reconstruct::TriMesh;
+use crate::scene::Texture;
 use crate::tone::{Exposure, exposure_scale, exposure_value, tone_map};
 
 /// Name of the curve behind [`tone_map`], for the record.
@@ -15,6 +19,10 @@ pub(crate) struct Look<'a> {
     pub(crate) stamp: &'a Stamp,
     /// Factor on radiosity before the tone curve, m²/W.
     pub(crate) scale: f64,
+    /// [`TriMesh::local_origin`].
+    pub(crate) origin: DVec3,
+    /// [`Texture::white`] of the mesh's textures.
+    pub(crate) whites: Vec<f64>,
 }
 
 impl<'a> Look<'a> {
@@ -22,7 +30,14 @@ impl<'a> Look<'a> {
         debug_assert!(mesh.positions.iter().all(|position| position.is_finite()));
         debug_assert!(mesh.normals.iter().all(|normal| normal.is_normalized()));
         debug_assert!(mesh.radiosity.iter().all(|radiosity| radiosity.is_finite()));
-        Self { mesh, stamp, scale: exposure_scale(mesh, stamp.exposure) }
+        let whites = mesh.textures.iter().map(Texture::white).collect();
+        Self {
+            mesh,
+            stamp,
+            scale: exposure_scale(mesh, stamp.exposure),
+            origin: mesh.local_origin(),
+            whites,
+        }
     }
 
     /// Linear colour, 0..=1, of the light that leaves a vertex.
@@ -30,15 +45,13 @@ impl<'a> Look<'a> {
         tone_map(self.mesh.radiosity[vertex as usize] * self.scale)
     }
 
-    /// Linear colour, 0..=1, that is to be multiplied by the picture under a vertex, if it has one.
-    pub(crate) fn light(&self, vertex: u32) -> Rgb {
-        let radiosity = self.mesh.radiosity[vertex as usize].to_array();
-        let mean = self.mesh.texture_mean[vertex as usize].to_array();
-        // A channel that the picture is black in shows nothing, whatever it is multiplied by.
-        let light = |channel: usize| {
-            if mean[channel] > 0.0 { radiosity[channel] / mean[channel] } else { 0.0 }
+    /// Linear colour, 0..=1, that is to be shown at a vertex of a group, or to be multiplied by its picture's colours
+    /// once they are divided by the picture's white.
+    pub(crate) fn shown(&self, vertex: u32, group: &Group) -> Rgb {
+        let Some(texture) = group.texture else {
+            return self.colour(vertex);
         };
-        tone_map(Rgb::from_array(std::array::from_fn(light)) * self.scale)
+        tone_map(self.mesh.light(vertex as usize) * self.whites[texture as usize] * self.scale)
     }
 
     /// Sentences for the comments of text headers, one a line.
@@ -68,7 +81,7 @@ pub(crate) fn coded(colour: Rgb) -> [f64; 3] {
 }
 
 /// The nearest finite single-precision numbers.
-pub(crate) fn singles(vector: glam::DVec3) -> [f32; 3] {
+pub(crate) fn singles(vector: DVec3) -> [f32; 3] {
     let limit = f64::from(f32::MAX);
     vector.to_array().map(|x| x.clamp(-limit, limit) as f32)
 }

@@ -7,7 +7,8 @@
 //! | `.ply` | `red green blue`: sRGB-coded bytes | `radiosity_red` ...: float, W/m² |
 //!
 //! Colours are exposed and tone-mapped ([`crate::tone`]). On textured parts of a GLB or OBJ they
-//! are the light that the picture is multiplied by; a PLY has no pictures and shows their mean.
+//! are the light that the picture is multiplied by, which is brightened if it is dark, so that the
+//! product is what our own pictures show; a PLY has no pictures and shows their mean.
 //! [`save_lightmap`] writes light as a picture instead, and the GLB that it fits on.
 
 mod factors;

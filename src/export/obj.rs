@@ -1,8 +1,10 @@
 //! OBJ with vertex colours, its MTL, and the pictures that the MTL names.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+
+use glam::DVec3;
 
 use super::group::{self, Group};
 use super::look::{Look, coded, singles};
@@ -17,8 +19,10 @@ const MARK: &str = "# materials of an OBJ by radiosity";
 /// The files that are written beside the OBJ at `path` whose pictures are among `textures`.
 pub(super) fn beside(path: &Path, textures: &[Texture]) -> Vec<PathBuf> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let picture = |(number, texture)| path.with_file_name(picture_name(&stem, number, texture));
-    let pictures = textures.iter().enumerate().map(picture);
+    // A brightened JPEG becomes a PNG.
+    let codings = |texture| [Coding::of(texture, 1.0), Coding::Png];
+    let names = |(number, texture)| codings(texture).map(|coding| name_of(&stem, number, coding));
+    let pictures = textures.iter().enumerate().flat_map(names).map(|name| path.with_file_name(name));
     [path.with_extension("mtl")].into_iter().chain(pictures).collect()
 }
 
@@ -39,26 +43,30 @@ const MAP: &str = "map_Kd ";
 
 /// Writes the OBJ at `path`, and beside it a file of materials and the pictures in use.
 pub(crate) fn save(look: &Look, path: &Path) -> Result<()> {
-    let groups = group::by_material(look.mesh);
+    let groups = group::by_object(look.mesh);
     let names = material_names(&groups);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let textures: BTreeSet<u32> = groups.iter().filter_map(|group| group.texture).collect();
     for &texture in &textures {
-        let target = path.with_file_name(name_of(look, &stem, texture));
-        let bytes =
-            picture::encoded(&look.mesh.textures[texture as usize]).map_err(Error::io(&target))?;
+        let target = path.with_file_name(picture_name(look, &stem, texture));
+        let white = look.whites[texture as usize];
+        let bytes = picture::encoded(&look.mesh.textures[texture as usize], white)
+            .map_err(Error::io(&target))?;
         file::replace(&target, |out| out.write_all(&bytes))?;
     }
     file::replace(&path.with_extension("mtl"), |out| {
         writeln!(out, "{MARK}")?;
-        groups.iter().zip(&names).try_for_each(|(group, name)| {
-            let picture = group.texture.map(|texture| name_of(look, &stem, texture));
-            write_material(name, picture.as_deref(), out)
-        })
+        let mut written = BTreeSet::new();
+        groups.iter().zip(&names).filter(|(_, name)| written.insert(*name)).try_for_each(
+            |(group, name)| {
+                let picture = group.texture.map(|texture| picture_name(look, &stem, texture));
+                write_material(name, picture.as_deref(), out)
+            },
+        )
     })?;
     file::replace(path, |out| {
         write_header(look, &stem, out)?;
-        let mut body = Body { look, out, vertices: 0, uvs: 0 };
+        let mut body = Body { look, out, vertices: 0, uvs: 0, object: None };
         groups.iter().zip(&names).try_for_each(|(group, name)| body.write_group(group, name))
     })
 }
@@ -80,15 +88,27 @@ struct Body<'a, W> {
     out: &'a mut W,
     vertices: usize,
     uvs: usize,
+    object: Option<u32>,
 }
 
 impl<W: Write> Body<'_, W> {
     fn write_group(&mut self, group: &Group, name: &str) -> io::Result<()> {
         let mesh = self.look.mesh;
+        if let Some(object) = group.object.filter(|_| group.object != self.object) {
+            let name = mesh.objects.get(object as usize).map(String::as_str).unwrap_or_default();
+            writeln!(self.out, "o {}", name.replace(char::is_control, "_"))?;
+        }
+        self.object = group.object;
         for &vertex in &group.vertices {
-            let [x, y, z] = singles(mesh.positions[vertex as usize]);
-            let [r, g, b] = coded(self.look.light(vertex));
-            writeln!(self.out, "v {x} {y} {z} {r:.4} {g:.4} {b:.4}")?;
+            let position = mesh.positions[vertex as usize];
+            let [r, g, b] = coded(self.look.shown(vertex, group));
+            if self.look.origin == DVec3::ZERO {
+                let [x, y, z] = singles(position);
+                writeln!(self.out, "v {x} {y} {z} {r:.4} {g:.4} {b:.4}")?;
+            } else {
+                let DVec3 { x, y, z } = position;
+                writeln!(self.out, "v {x} {y} {z} {r:.4} {g:.4} {b:.4}")?;
+            }
         }
         for &vertex in &group.vertices {
             let [x, y, z] = mesh.normals[vertex as usize].to_array();
@@ -129,33 +149,35 @@ fn write_material(name: &str, picture: Option<&str>, out: &mut impl Write) -> io
     }
 }
 
-fn name_of(look: &Look, stem: &str, texture: u32) -> String {
-    picture_name(stem, texture as usize, &look.mesh.textures[texture as usize])
+fn picture_name(look: &Look, stem: &str, texture: u32) -> String {
+    let number = texture as usize;
+    name_of(stem, number, Coding::of(&look.mesh.textures[number], look.whites[number]))
 }
 
-fn picture_name(stem: &str, number: usize, texture: &Texture) -> String {
-    format!("{stem}-{number}.{}", Coding::of(texture).ending())
+fn name_of(stem: &str, number: usize, coding: Coding) -> String {
+    format!("{stem}-{number}.{}", coding.ending())
 }
 
-/// Names that an MTL can hold: without spaces, and each used once.
+/// Names of the groups' materials that an MTL can hold: without spaces, and each used for one look.
 fn material_names(groups: &[Group]) -> Vec<String> {
-    let mut taken = BTreeSet::new();
-    groups
+    let (mut taken, mut known) = (BTreeSet::new(), BTreeMap::new());
+    let mut name_of = |group: &Group| {
+        let plain: String = group
+            .name
+            .chars()
+            .map(|c| if c.is_whitespace() || c.is_control() { '_' } else { c })
+            .collect();
+        let plain = if plain.is_empty() { "material".to_owned() } else { plain };
+        let mut name = plain.clone();
+        let mut count = 1;
+        while !taken.insert(name.clone()) {
+            count += 1;
+            name = format!("{plain}.{count}");
+        }
+        name
+    };
+    let names = groups
         .iter()
-        .map(|group| {
-            let plain: String = group
-                .name
-                .chars()
-                .map(|c| if c.is_whitespace() || c.is_control() { '_' } else { c })
-                .collect();
-            let plain = if plain.is_empty() { "material".to_owned() } else { plain };
-            let mut name = plain.clone();
-            let mut count = 1;
-            while !taken.insert(name.clone()) {
-                count += 1;
-                name = format!("{plain}.{count}");
-            }
-            name
-        })
-        .collect()
+        .map(|group| known.entry(group.look()).or_insert_with(|| name_of(group)).clone());
+    names.collect()
 }

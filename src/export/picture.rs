@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::io::{self, Cursor};
 
-use image::{ImageBuffer, ImageFormat, Rgb};
+use image::{DynamicImage, ImageFormat, RgbImage, RgbaImage};
 
 use crate::colour::srgb_from_linear;
 use crate::scene::Texture;
@@ -31,32 +31,37 @@ impl Coding {
         }
     }
 
-    /// How [`encoded`] stores `texture`.
-    pub(crate) fn of(texture: &Texture) -> Self {
-        match kept(texture) {
-            Some(coding) => coding,
-            None => Self::Png,
-        }
+    /// How [`encoded`] stores `texture`, divided by `white`.
+    pub(crate) fn of(texture: &Texture, white: f64) -> Self {
+        kept(texture, white).unwrap_or(Self::Png)
     }
 }
 
-/// The picture as it was read if that is PNG or JPEG, else its texels as PNG.
-pub(crate) fn encoded(texture: &Texture) -> io::Result<Cow<'_, [u8]>> {
-    if kept(texture).is_some() {
+/// The picture, brightened so that `white` becomes 1: as it was read if that is PNG or JPEG and 1 already, else its
+/// texels as PNG.
+pub(crate) fn encoded(texture: &Texture, white: f64) -> io::Result<Cow<'_, [u8]>> {
+    if kept(texture, white).is_some() {
         return Ok(Cow::Borrowed(&texture.encoded));
     }
-    let code = |value: f32| (srgb_from_linear(f64::from(value)) * 255.0).round() as u8;
-    let bytes: Vec<u8> = texture.texels.iter().flatten().map(|&value| code(value)).collect();
-    let picture = ImageBuffer::<Rgb<u8>, _>::from_raw(texture.width, texture.height, bytes)
-        .ok_or_else(|| io::Error::other(format!("picture {}: texels are missing", texture.name)))?;
+    let code = |value: f32| (srgb_from_linear(f64::from(value) / white) * 255.0).round() as u8;
+    let (width, height) = (texture.width, texture.height);
+    let colours = texture.texels.iter().map(|texel| texel.map(code));
+    let picture: Option<DynamicImage> = if texture.alpha.is_empty() {
+        RgbImage::from_raw(width, height, colours.flatten().collect()).map(DynamicImage::ImageRgb8)
+    } else {
+        let bytes = colours.zip(&texture.alpha).flat_map(|([r, g, b], &alpha)| [r, g, b, alpha]);
+        RgbaImage::from_raw(width, height, bytes.collect()).map(DynamicImage::ImageRgba8)
+    };
+    let missing = || io::Error::other(format!("picture {}: texels are missing", texture.name));
+    let picture = picture.ok_or_else(missing)?;
     let mut png = Cursor::new(Vec::new());
     picture.write_to(&mut png, ImageFormat::Png).map_err(io::Error::other)?;
     Ok(Cow::Owned(png.into_inner()))
 }
 
-fn kept(texture: &Texture) -> Option<Coding> {
+fn kept(texture: &Texture, white: f64) -> Option<Coding> {
     match texture.mime_type.as_str() {
-        _ if texture.encoded.is_empty() => None,
+        _ if texture.encoded.is_empty() || white != 1.0 => None,
         "image/png" => Some(Coding::Png),
         "image/jpeg" => Some(Coding::Jpeg),
         _ => None,

@@ -2,13 +2,12 @@
 
 use std::io::{self, Write};
 
+use glam::DVec3;
+
 use super::group;
 use super::look::{Look, coded, singles};
 
-const VERTEX_PROPERTIES: [&str; 12] = [
-    "float x",
-    "float y",
-    "float z",
+const VERTEX_PROPERTIES: [&str; 9] = [
     "float nx",
     "float ny",
     "float nz",
@@ -29,6 +28,8 @@ pub(crate) fn write(look: &Look, out: &mut impl Write) -> io::Result<()> {
     }
     writeln!(out, "comment radiosity_red, _green, _blue: W/m^2, linear, Rec. 709 primaries.")?;
     writeln!(out, "element vertex {}", group.vertices.len())?;
+    let number = if is_far(look) { "double" } else { "float" };
+    writeln!(out, "property {number} x\nproperty {number} y\nproperty {number} z")?;
     for property in VERTEX_PROPERTIES {
         writeln!(out, "property {property}")?;
     }
@@ -47,12 +48,22 @@ pub(crate) fn write(look: &Look, out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
+/// Whether single precision cannot tell places of the mesh apart.
+fn is_far(look: &Look) -> bool {
+    look.origin != DVec3::ZERO
+}
+
 fn write_vertex(look: &Look, vertex: u32, out: &mut impl Write) -> io::Result<()> {
     let index = vertex as usize;
     let write_singles = |values: [f32; 3], out: &mut dyn Write| {
         values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))
     };
-    write_singles(singles(look.mesh.positions[index]), out)?;
+    let position = look.mesh.positions[index];
+    if is_far(look) {
+        position.to_array().iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))?;
+    } else {
+        write_singles(singles(position), out)?;
+    }
     write_singles(look.mesh.normals[index].to_array(), out)?;
     out.write_all(&coded(look.colour(vertex)).map(|value| (value * 255.0).round() as u8))?;
     write_singles(singles(look.mesh.radiosity[index]), out)

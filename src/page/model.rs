@@ -35,6 +35,8 @@ pub struct Model {
     pub(super) range: [f64; 2],
     /// Upper end of a good scale of errors.
     pub(super) error_limit: f64,
+    /// Whether pictures on surfaces are left out.
+    pub(super) lacks_pictures: bool,
 }
 
 impl Model {
@@ -58,6 +60,7 @@ impl Model {
             errors: Vec::new(),
             range: bulk::radiosity_range(mesh),
             error_limit: 0.0,
+            lacks_pictures: mesh.parts.iter().any(|part| part.texture.is_some()),
         }
     }
 

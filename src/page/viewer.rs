@@ -95,6 +95,9 @@ pub fn viewer(viewer: &Viewer<'_>) -> Markup {
             }
             figcaption {
                 @if !viewer.caption.is_empty() { (viewer.caption) }
+                @if viewer.steps.iter().any(|step| step.model.lacks_pictures) {
+                    " Pictures on surfaces are left out here: the light is that of their mean colour."
+                }
                 span.hint {
                     "Drag to turn, with shift or the right button to shift; wheel or pinch to zoom; \
                      arrow keys, + and \u{2212} do the same, 0 goes back."

@@ -73,30 +73,49 @@ fn assemble(surfaces: &Surfaces, places: &Places, sheets: &[Sheet]) -> TriMesh {
     let mut hanging: Vec<u32> = sheets.iter().flat_map(|sheet| &sheet.hanging).copied().collect();
     hanging.sort_unstable();
     hanging.dedup();
-    let (hanging, textures) = (hanging.len(), surfaces.textures.clone());
-    let mut mesh = TriMesh { hanging, textures, ..TriMesh::default() };
+    let mut mesh = TriMesh {
+        hanging: hanging.len(),
+        textures: surfaces.textures.clone(),
+        objects: surfaces.objects.clone(),
+        nodes: surfaces.nodes.clone(),
+        cameras: surfaces.cameras.clone(),
+        ..TriMesh::default()
+    };
     for (number, material) in surfaces.materials.iter().enumerate() {
-        let first = mesh.triangles.len();
+        let first = mesh.parts.len();
         for (surface, sheet) in surfaces.list.iter().zip(sheets) {
             if surface.material as usize == number {
-                let base = mesh.positions.len() as u32;
-                for corner in &sheet.corners {
-                    mesh.positions.push(places.at(corner.place));
-                    mesh.normals.push(corner.normal.as_vec3());
-                    mesh.uvs.push(corner.uv.as_vec2());
-                    mesh.radiosity.push(corner.radiosity);
-                    mesh.texture_mean.push(corner.texture_mean);
-                    mesh.irradiance.push(corner.irradiance);
+                let start = mesh.triangles.len();
+                append(&mut mesh, places, sheet);
+                let (object, end) = (Some(surface.object), mesh.triangles.len());
+                match mesh.parts[first..].last_mut().filter(|part| part.object == object) {
+                    Some(part) => part.triangles.end = end,
+                    None => mesh.parts.push(Part {
+                        name: material.name.clone(),
+                        triangles: start..end,
+                        texture: material.texture,
+                        cutoff: material.cutoff,
+                        object,
+                    }),
                 }
-                mesh.triangles
-                    .extend(sheet.triangles.iter().map(|t| t.map(|corner| base + corner)));
-                mesh.leaves.extend_from_slice(&sheet.leaves);
             }
         }
-        if mesh.triangles.len() > first {
-            let (name, texture) = (material.name.clone(), material.texture);
-            mesh.parts.push(Part { name, triangles: first..mesh.triangles.len(), texture });
-        }
     }
+    mesh.parts.retain(|part| !part.triangles.is_empty());
     mesh
+}
+
+/// Adds the corners and triangles of a sheet.
+fn append(mesh: &mut TriMesh, places: &Places, sheet: &Sheet) {
+    let base = mesh.positions.len() as u32;
+    for corner in &sheet.corners {
+        mesh.positions.push(places.at(corner.place));
+        mesh.normals.push(corner.normal.as_vec3());
+        mesh.uvs.push(corner.uv.as_vec2());
+        mesh.radiosity.push(corner.radiosity);
+        mesh.texture_mean.push(corner.texture_mean);
+        mesh.irradiance.push(corner.irradiance);
+    }
+    mesh.triangles.extend(sheet.triangles.iter().map(|t| t.map(|corner| base + corner)));
+    mesh.leaves.extend_from_slice(&sheet.leaves);
 }

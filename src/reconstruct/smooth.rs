@@ -21,20 +21,22 @@ pub(super) fn average_across_smooth_edges(sheets: &mut [Sheet]) {
     for corners in meeting.values().filter(|corners| corners.len() > 1) {
         let means: Vec<_> =
             corners.iter().map(|&corner| mean_of_alike(sheets, corners, corner)).collect();
-        for (&(sheet, index), [radiosity, direct, indirect]) in corners.iter().zip(means) {
+        for (&(sheet, index), [radiosity, texture_mean, direct, indirect]) in
+            corners.iter().zip(means)
+        {
             let corner = &mut sheets[sheet].corners[index];
-            corner.radiosity = radiosity;
+            (corner.radiosity, corner.texture_mean) = (radiosity, texture_mean);
             corner.irradiance = Irradiance { direct, indirect, ..corner.irradiance };
         }
     }
 }
 
-/// Means of radiosity, direct and indirect irradiance.
+/// Means of radiosity, of the texture's means, which are to stay in proportion, and of direct and indirect irradiance.
 fn mean_of_alike(
     sheets: &[Sheet],
     corners: &[(usize, usize)],
     (sheet, index): (usize, usize),
-) -> [Rgb; 3] {
+) -> [Rgb; 4] {
     let (own, normal) = (&sheets[sheet], sheets[sheet].corners[index].normal);
     let paint = |other: &Sheet| (other.material, other.reflectance);
     let alike = corners
@@ -42,10 +44,10 @@ fn mean_of_alike(
         .filter(|&&(sheet, _)| paint(&sheets[sheet]) == paint(own))
         .map(|&(sheet, index)| &sheets[sheet].corners[index])
         .filter(|corner| corner.normal.distance(normal) <= SAME);
-    let mut sums = [Rgb::ZERO; 3];
+    let mut sums = [Rgb::ZERO; 4];
     let mut count = 0.0;
-    for Corner { radiosity, irradiance, .. } in alike {
-        let light = [*radiosity, irradiance.direct, irradiance.indirect];
+    for Corner { radiosity, texture_mean, irradiance, .. } in alike {
+        let light = [*radiosity, *texture_mean, irradiance.direct, irradiance.indirect];
         sums.iter_mut().zip(light).for_each(|(sum, light)| *sum += light);
         count += 1.0;
     }

@@ -7,7 +7,8 @@ use glam::{DVec3, Vec2, Vec3};
 use super::LightShare;
 use crate::colour::Rgb;
 use crate::mesh::ElementId;
-use crate::scene::Texture;
+use crate::scene::boxes::{Bounds, local_origin};
+use crate::scene::{Camera, Node, Texture};
 
 /// A conforming triangle mesh; all per-vertex lists are as long as `positions`.
 #[derive(Clone, Debug, Default)]
@@ -20,15 +21,21 @@ pub struct TriMesh {
     pub uvs: Vec<Vec2>,
     /// Radiosity B, W/m² per channel, interpolated linearly over a triangle.
     pub radiosity: Vec<Rgb>,
-    /// Mean colour of the texture under the vertex's element, 1 where there is none:
-    /// `radiosity / texture_mean * texture` is the textured radiosity.
+    /// Mean colour of the texture under the vertex's element, 1 where there is none; [`Self::light`] times the
+    /// texture is the textured radiosity.
     pub texture_mean: Vec<Rgb>,
     /// Corners, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
-    /// Consecutive runs of triangles that share a material; together they are all triangles.
+    /// Consecutive runs of triangles that share a material and an object; together they are all triangles.
     pub parts: Vec<Part>,
     /// Pictures that parts refer to.
     pub textures: Vec<Texture>,
+    /// Names of the objects that parts belong to.
+    pub objects: Vec<String>,
+    /// The hierarchy that objects and cameras stand in; objects without a node stand by themselves.
+    pub nodes: Vec<Node>,
+    /// The scene's cameras.
+    pub cameras: Vec<Camera>,
     /// The light of each group of lights, if it was kept apart: then radiosity is their sum.
     pub lights: Vec<LightShare>,
     /// What arrives at each vertex; empty in a mesh read from a file.
@@ -40,7 +47,35 @@ pub struct TriMesh {
     pub hanging: usize,
 }
 
+/// Mean of a channel of a picture, as a share of that of its brightest one, below which it says nothing of the light.
+const LEAST_MEAN: f64 = 1e-3;
+
+/// Least light in a channel, as a share of that in the brightest one: what is shown has a ratio in all channels.
+const TRACE: f64 = 1e-6;
+
 impl TriMesh {
+    /// Radiosity, W/m², that a textured surface would have at a vertex if its picture were white: this times the
+    /// picture is the textured radiosity. Zero where the picture is black all around.
+    ///
+    /// Channels that the picture has next to nothing of are lit as its brightest one is.
+    pub fn light(&self, vertex: usize) -> Rgb {
+        let (radiosity, mean) = (self.radiosity[vertex], self.texture_mean[vertex]);
+        let channel = mean.max_position();
+        if mean[channel] <= 0.0 {
+            return Rgb::ZERO;
+        }
+        let is_known = mean.cmpge(Rgb::splat(LEAST_MEAN * mean[channel]));
+        let light =
+            Rgb::select(is_known, radiosity / mean, Rgb::splat(radiosity[channel] / mean[channel]));
+        light.max(Rgb::splat(TRACE * light.max_element()))
+    }
+
+    /// Where coordinates in single precision are to begin, m: the origin, unless the mesh is far from it.
+    pub fn local_origin(&self) -> DVec3 {
+        let bounds: Bounds = self.bounds();
+        local_origin(bounds).unwrap_or_default()
+    }
+
     /// Least and greatest coordinates of the triangles, m; both zero if there is none.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         let mut corners = self.triangles.iter().flatten().map(|&c| self.positions[c as usize]);
@@ -74,7 +109,7 @@ impl Irradiance {
     }
 }
 
-/// A run of triangles of one material.
+/// A run of triangles of one material and object.
 #[derive(Clone, Debug, Default)]
 pub struct Part {
     /// The material's name.
@@ -83,4 +118,8 @@ pub struct Part {
     pub triangles: Range<usize>,
     /// Index into [`TriMesh::textures`].
     pub texture: Option<u32>,
+    /// Alpha of the texture, 0..=1, below which there is a hole.
+    pub cutoff: Option<f64>,
+    /// Index into [`TriMesh::objects`].
+    pub object: Option<u32>,
 }

@@ -85,6 +85,16 @@ impl Caster {
 
     /// The nearest triangle from `eye` along the unit vector `direction`.
     pub(super) fn first(&self, eye: DVec3, direction: DVec3, sides: Sides) -> Option<Hit> {
+        self.first_of((eye, direction), sides, |_| true)
+    }
+
+    /// The same of the triangles that are there at the place where they are met.
+    pub(super) fn first_of(
+        &self,
+        (eye, direction): (DVec3, DVec3),
+        sides: Sides,
+        is_there: impl Fn(&Hit) -> bool,
+    ) -> Option<Hit> {
         let eye = (eye - self.centre) / self.size;
         // All triangles are within the unit sphere: the ray starts where it may enter it.
         let skipped = (-eye.dot(direction) - 1.0).max(0.0);
@@ -94,7 +104,8 @@ impl Caster {
         let mut ignored = obvhs::ray::RayHit::none();
         self.tree.ray_traverse(ray, &mut ignored, |_, slot| {
             let hit = self.triangles[slot].meet(origin, direction, sides);
-            let Some(hit) = hit.filter(|hit| nearest.is_none_or(|n| hit.is_before(&n))) else {
+            let is_nearer = |hit: &Hit| nearest.is_none_or(|n| hit.is_before(&n)) && is_there(hit);
+            let Some(hit) = hit.filter(is_nearer) else {
                 return f32::INFINITY;
             };
             nearest = Some(hit);

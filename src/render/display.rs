@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use glam::Vec3;
 use image::RgbImage;
 
 use super::legend::{self, Body, Legend};
@@ -10,7 +11,7 @@ use super::map::{Map, over_background, value_of_mesh};
 use super::picture::Picture;
 use super::view::View;
 use crate::colour::{Rgb, linear_from_srgb, luminance, srgb_from_linear};
-use crate::tone::tone_map;
+use crate::tone::{tone_map, tone_map_picture};
 
 /// How strongly a line in full covers what is under it.
 const LINE_STRENGTH: f64 = 0.6;
@@ -43,8 +44,12 @@ impl Display {
 /// The picture in 8-bit sRGB, with its lines and, below it, the legend of its view.
 pub fn displayed(picture: &Picture, display: &Display) -> RgbImage {
     let exposed = |index: usize| -> Rgb {
-        let radiosity = picture.values[index].as_dvec3() * PI;
-        coded(tone_map(radiosity * display.scale))
+        let exposed = |radiance: Vec3| radiance.as_dvec3() * PI * display.scale;
+        let value = exposed(picture.values[index]);
+        coded(match picture.whites.get(index) {
+            Some(&white) => tone_map_picture(value, exposed(white)),
+            None => tone_map(value),
+        })
     };
     let label = picture.view.label();
     let legend = |remark: &str, body| Legend { label, remark: remark.to_owned(), body };

@@ -26,6 +26,9 @@ pub struct Picture {
     /// Linear RGB, the background included: radiance, W/(m² sr), of light, mesh and radiosity;
     /// irradiance, W/m²; the share of the allowed error; or colours that stand for levels and reasons.
     pub values: Vec<Vec3>,
+    /// The values that the whites of pictures on surfaces would have, which [tone mapping](crate::tone::tone_map_picture)
+    /// goes by; empty in pictures of meshes without textures.
+    pub whites: Vec<Vec3>,
     /// Share of each pixel that shows the mesh, 0..=1.
     pub coverage: Vec<f32>,
     /// Strength of the mesh's lines, 0..=1; empty in views without.
@@ -137,6 +140,10 @@ pub fn render_solved(
         width: options.width,
         height: options.height,
         values: pixels.iter().map(|pixel| pixel.value.as_vec3()).collect(),
+        whites: match mesh.textures.is_empty() {
+            true => Vec::new(),
+            false => pixels.iter().map(|pixel| pixel.white.as_vec3()).collect(),
+        },
         coverage: pixels.iter().map(|pixel| pixel.coverage as f32).collect(),
         lines: match options.view.shows_lines() {
             true => pixels.iter().map(|pixel| pixel.line as f32).collect(),

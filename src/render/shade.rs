@@ -12,13 +12,11 @@ use super::picture::Subject;
 use super::texture;
 use super::view::View;
 use crate::colour::Rgb;
-use crate::reconstruct::{Irradiance, TriMesh};
+use crate::reconstruct::{Irradiance, Part, TriMesh};
+use crate::scene::Texture;
 use crate::settings::Settings;
 use crate::solver::Solution;
 use crate::surface::Surfaces;
-
-/// Least mean of a texture by which a radiosity is divided; darker texels hold no information.
-const LEAST_TEXTURE_MEAN: f64 = 1e-6;
 
 /// What a triangle mesh was made from.
 #[derive(Clone, Copy, Debug)]
@@ -34,10 +32,25 @@ pub struct Solved<'a> {
 /// Direct light at the place itself; without, it is interpolated.
 pub(super) type Gather<'a> = Option<&'a FinalGather<'a>>;
 
+/// A view's value at a place, and what the white of the picture that lies there would have; of radiosity that can differ.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Seen {
+    pub(super) value: Rgb,
+    pub(super) white: Rgb,
+}
+
+impl From<Rgb> for Seen {
+    fn from(value: Rgb) -> Self {
+        Self { value, white: value }
+    }
+}
+
 /// Finds the value of a view at any place of a mesh.
 pub(super) struct Shade<'a> {
     pub(super) mesh: &'a TriMesh,
     pub(super) view: View,
+    /// [`Texture::white`] of the mesh's textures.
+    whites: Vec<f64>,
     /// Values by triangle, in views of the leaves.
     by_triangle: Vec<Rgb>,
     /// What their colours stand for.
@@ -56,24 +69,47 @@ impl<'a> Shade<'a> {
         let value = |leaf: &crate::mesh::ElementId| by_leaf.get(leaf.index()).copied();
         let values = mesh.leaves.iter().map(|leaf| value(leaf).unwrap_or_default());
         let by_triangle = if by_leaf.is_empty() { Vec::new() } else { values.collect() };
-        Self { mesh, view, by_triangle, key }
+        let whites = mesh.textures.iter().map(Texture::white).collect();
+        Self { mesh, view, whites, by_triangle, key }
+    }
+
+    /// Whether a ray ends at a triangle, or goes through a hole that is cut out of it.
+    pub(super) fn is_there(&self, hit: &Hit) -> bool {
+        let Some(cutoff) = part_of(self.mesh, hit.triangle).and_then(|part| part.cutoff) else {
+            return true;
+        };
+        let texture = texture_on(self.mesh, hit.triangle);
+        texture.is_none_or(|number| {
+            texture::opacity(&self.mesh.textures[number], uv_at(self.mesh, hit)) >= cutoff
+        })
     }
 
     /// The view's value at a place, linear RGB.
-    pub(super) fn value(&self, hit: &Hit, gather: Gather<'_>) -> Rgb {
+    pub(super) fn value(&self, hit: &Hit, gather: Gather<'_>) -> Seen {
         match self.view {
-            View::Light | View::Wireframe | View::Radiosity => self.radiosity(hit, gather) / PI,
-            View::Direct => self.direct(hit, gather),
-            View::Indirect => self.irradiance(hit).indirect,
-            View::Illuminance => self.direct(hit, gather) + self.irradiance(hit).indirect,
+            View::Light | View::Wireframe | View::Radiosity => self.radiance(hit, gather),
+            View::Direct => self.direct(hit, gather).into(),
+            View::Indirect => self.irradiance(hit).indirect.into(),
+            View::Illuminance => (self.direct(hit, gather) + self.irradiance(hit).indirect).into(),
             View::Level | View::Reason | View::Error => {
-                self.by_triangle.get(hit.triangle).copied().unwrap_or_default()
+                self.by_triangle.get(hit.triangle).copied().unwrap_or_default().into()
             }
         }
     }
 
-    fn radiosity(&self, hit: &Hit, gather: Gather<'_>) -> Rgb {
-        let interpolated = radiosity_at(self.mesh, hit);
+    fn radiance(&self, hit: &Hit, gather: Gather<'_>) -> Seen {
+        let texture = texture_on(self.mesh, hit.triangle);
+        let light = self.light(hit, texture.is_some(), gather) / PI;
+        let Some(number) = texture else { return light.into() };
+        Seen {
+            value: light * texture_at(self.mesh, number, hit),
+            white: light * self.whites[number],
+        }
+    }
+
+    /// Radiosity, that of a white picture where there is one.
+    fn light(&self, hit: &Hit, is_textured: bool, gather: Gather<'_>) -> Rgb {
+        let interpolated = light_at(self.mesh, hit, is_textured);
         let Some(gather) = gather else {
             return interpolated;
         };
@@ -82,8 +118,7 @@ impl<'a> Shade<'a> {
             return interpolated;
         }
         let change = self.direct(hit, Some(gather)) - self.irradiance(hit).direct;
-        let texture = texture_at(self.mesh, hit).unwrap_or(Rgb::ONE);
-        (interpolated + reflectance * texture * change).max(Rgb::ZERO)
+        (interpolated + reflectance * change).max(Rgb::ZERO)
     }
 
     /// Irradiance straight from emitters.
@@ -117,29 +152,37 @@ impl<'a> Shade<'a> {
 
 /// Radiosity, W/m², at `hit`, textured.
 pub(super) fn radiosity_at(mesh: &TriMesh, hit: &Hit) -> Rgb {
-    let radiosity = mix(mesh, hit, &mesh.radiosity);
-    texture_at(mesh, hit).map_or(radiosity, |texture| {
-        let mean = mix(mesh, hit, &mesh.texture_mean).max(Rgb::splat(LEAST_TEXTURE_MEAN));
-        radiosity / mean * texture
-    })
+    let texture = texture_on(mesh, hit.triangle);
+    let light = light_at(mesh, hit, texture.is_some());
+    texture.map_or(light, |number| light * texture_at(mesh, number, hit))
 }
 
-/// Values at vertices, interpolated.
-fn mix(mesh: &TriMesh, hit: &Hit, values: &[Rgb]) -> Rgb {
+/// Interpolated radiosity, W/m², that of a white picture on a textured triangle.
+fn light_at(mesh: &TriMesh, hit: &Hit, is_textured: bool) -> Rgb {
     let corners = mesh.triangles[hit.triangle].map(|corner| corner as usize);
-    corners
-        .iter()
-        .zip(hit.weights.to_array())
-        .map(|(&corner, weight)| values[corner] * weight)
-        .sum()
+    let light = |vertex| if is_textured { mesh.light(vertex) } else { mesh.radiosity[vertex] };
+    let weighted = corners.into_iter().zip(hit.weights.to_array());
+    weighted.map(|(corner, weight)| light(corner) * weight).sum()
 }
 
-/// Colour of the texture at `hit`, if there is one.
-fn texture_at(mesh: &TriMesh, hit: &Hit) -> Option<Rgb> {
-    let part = mesh.parts.partition_point(|part| part.triangles.end <= hit.triangle);
-    let texture = mesh.textures.get(mesh.parts.get(part)?.texture? as usize)?;
+fn part_of(mesh: &TriMesh, triangle: usize) -> Option<&Part> {
+    mesh.parts.get(mesh.parts.partition_point(|part| part.triangles.end <= triangle))
+}
+
+/// Number of the texture of a triangle.
+fn texture_on(mesh: &TriMesh, triangle: usize) -> Option<usize> {
+    let number = part_of(mesh, triangle)?.texture? as usize;
+    (number < mesh.textures.len()).then_some(number)
+}
+
+/// Colour of a texture at `hit`.
+fn texture_at(mesh: &TriMesh, number: usize, hit: &Hit) -> Rgb {
+    texture::sample(&mesh.textures[number], uv_at(mesh, hit))
+}
+
+/// Texture coordinates at `hit`.
+fn uv_at(mesh: &TriMesh, hit: &Hit) -> Vec2 {
     let corners = mesh.triangles[hit.triangle].map(|corner| corner as usize);
     let weighted = corners.iter().zip(hit.weights.to_array());
-    let uv: Vec2 = weighted.map(|(&corner, weight)| mesh.uvs[corner] * weight as f32).sum();
-    Some(texture::sample(texture, uv))
+    weighted.map(|(&corner, weight)| mesh.uvs[corner] * weight as f32).sum()
 }

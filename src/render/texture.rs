@@ -5,63 +5,96 @@ use glam::{DVec3, Vec2};
 use crate::colour::Rgb;
 use crate::scene::Texture;
 
-/// Bilinear colour at `uv`, origin at the picture's top left; white if the texture is empty.
+/// Colour at `uv`, origin at the picture's top left, as its sampler mixes texels; white if the texture is empty.
 pub(super) fn sample(texture: &Texture, uv: Vec2) -> Rgb {
+    let at = |index: usize| {
+        let texel = texture.texels.get(index);
+        texel.map_or(Rgb::ONE, |&[r, g, b]| DVec3::new(r.into(), g.into(), b.into()))
+    };
+    mixed(texture, uv, at)
+}
+
+/// Opacity at `uv`, 0..=1, mixed likewise.
+pub(super) fn opacity(texture: &Texture, uv: Vec2) -> f64 {
+    let at = |index: usize| texture.alpha.get(index).map_or(1.0, |&alpha| f64::from(alpha) / 255.0);
+    mixed(texture, uv, |index| Rgb::splat(at(index))).x
+}
+
+/// What texels hold, by their index, between them.
+fn mixed(texture: &Texture, uv: Vec2, at: impl Fn(usize) -> Rgb) -> Rgb {
     if texture.width == 0 || texture.height == 0 || !uv.is_finite() {
         return Rgb::ONE;
     }
-    let x = f64::from(uv.x) * f64::from(texture.width) - 0.5;
-    let y = f64::from(uv.y) * f64::from(texture.height) - 0.5;
+    let [wrap_u, wrap_v] = texture.sampler.wrap;
+    let at = |column: f64, row: f64| {
+        let row = wrap_v.texel(row, texture.height);
+        at(row * texture.width as usize + wrap_u.texel(column, texture.width))
+    };
+    let x = f64::from(uv.x) * f64::from(texture.width);
+    let y = f64::from(uv.y) * f64::from(texture.height);
+    if texture.sampler.nearest {
+        return at(x.floor(), y.floor());
+    }
+    let (x, y) = (x - 0.5, y - 0.5);
     let (column, row) = (x.floor(), y.floor());
-    let at = |column, row| texel(texture, column, row);
     let above = at(column, row).lerp(at(column + 1.0, row), x - column);
     let below = at(column, row + 1.0).lerp(at(column + 1.0, row + 1.0), x - column);
     above.lerp(below, y - row)
 }
 
-fn texel(texture: &Texture, column: f64, row: f64) -> Rgb {
-    let column = wrapped(column, texture.width, texture.repeat[0]);
-    let row = wrapped(row, texture.height, texture.repeat[1]);
-    let index = row * texture.width as usize + column;
-    texture
-        .texels
-        .get(index)
-        .map_or(Rgb::ONE, |&[r, g, b]| DVec3::new(r.into(), g.into(), b.into()))
-}
-
-fn wrapped(index: f64, count: u32, repeat: bool) -> usize {
-    let count = f64::from(count);
-    let inside = if repeat { index.rem_euclid(count) } else { index };
-    inside.clamp(0.0, count - 1.0) as usize
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{Sampler, Wrap};
 
-    fn black_and_white(repeat: bool) -> Texture {
+    fn black_and_white(wrap: Wrap) -> Texture {
         Texture {
             width: 2,
             height: 1,
             texels: vec![[0.0; 3], [1.0; 3]],
-            repeat: [repeat; 2],
+            sampler: Sampler { wrap: [wrap; 2], nearest: false },
             ..Texture::default()
         }
     }
 
     #[test]
     fn texels_keep_their_colour_at_their_centres_and_mix_between() {
-        let texture = black_and_white(true);
+        let texture = black_and_white(Wrap::Repeat);
         for (u, expected) in [(0.25, 0.0), (0.75, 1.0), (0.5, 0.5), (1.0, 0.5), (-0.25, 1.0)] {
             assert!((sample(&texture, Vec2::new(u, 0.5)).x - expected).abs() < 1e-6, "{u}");
         }
     }
 
     #[test]
-    fn clamped_textures_continue_their_border() {
-        let texture = black_and_white(false);
-        for (u, expected) in [(-3.0, 0.0), (0.0, 0.0), (1.0, 1.0), (7.0, 1.0)] {
-            assert_eq!(sample(&texture, Vec2::new(u, 0.5)).x, expected, "{u}");
+    fn clamped_textures_continue_their_border_and_mirrored_ones_turn_back() {
+        for (wrap, u, expected) in [
+            (Wrap::Clamp, -3.0, 0.0),
+            (Wrap::Clamp, 0.0, 0.0),
+            (Wrap::Clamp, 1.0, 1.0),
+            (Wrap::Clamp, 7.0, 1.0),
+            (Wrap::Mirror, 1.0, 1.0),
+            (Wrap::Mirror, 1.75, 0.0),
+            (Wrap::Mirror, -0.75, 1.0),
+            (Wrap::Mirror, 2.25, 0.0),
+        ] {
+            let found = sample(&black_and_white(wrap), Vec2::new(u, 0.5)).x;
+            assert_eq!(found, expected, "{wrap:?} {u}");
+        }
+    }
+
+    #[test]
+    fn nearest_texels_are_not_mixed_and_opacities_are_as_colours_are() {
+        let mut texture = black_and_white(Wrap::Repeat);
+        texture.alpha = vec![0, 255];
+        assert!((opacity(&texture, Vec2::splat(0.5)) - 0.5).abs() < 1e-6);
+        texture.sampler.nearest = true;
+        for (u, expected) in [(0.49, 0.0), (0.51, 1.0), (1.01, 0.0)] {
+            let at = Vec2::new(u, 0.5);
+            assert_eq!(
+                (sample(&texture, at).x, opacity(&texture, at)),
+                (expected, expected),
+                "{u}"
+            );
         }
     }
 }

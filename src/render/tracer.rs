@@ -13,7 +13,7 @@ use super::caster::{Caster, Hit, Sides};
 use super::lines::line_coverage;
 use super::picture::RenderOptions;
 use super::rays::Rays;
-use super::shade::{Gather, Shade};
+use super::shade::{Gather, Seen, Shade};
 use crate::colour::Rgb;
 use crate::scene::Camera;
 use crate::watch::{Enough, Pace, watched};
@@ -26,6 +26,8 @@ const SMOOTH: f64 = 0.03;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Pixel {
     pub(super) value: Rgb,
+    /// That of the white of the pictures on what is seen.
+    pub(super) white: Rgb,
     pub(super) coverage: f64,
     pub(super) line: f64,
     /// Least and greatest values of the samples, by channel.
@@ -91,13 +93,14 @@ impl<'a> Tracer<'a> {
         let share = 1.0 / places.len() as f64;
         let mut pixel = Pixel { range: [Rgb::MAX, Rgb::MIN], ..Pixel::default() };
         for &place in places {
-            let (value, coverage, line) = match self.look(index, place) {
+            let (Seen { value, white }, coverage, line) = match self.look(index, place) {
                 Some((direction, hit)) => {
                     (self.shade.value(&hit, gather), 1.0, self.line(direction, &hit))
                 }
-                None => (self.beyond(index, place), 0.0, 0.0),
+                None => (self.beyond(index, place).into(), 0.0, 0.0),
             };
             pixel.value += value * share;
+            pixel.white += white * share;
             pixel.coverage += coverage * share;
             pixel.line += line * share;
             pixel.range = [pixel.range[0].min(value), pixel.range[1].max(value)];
@@ -106,9 +109,10 @@ impl<'a> Tracer<'a> {
     }
 
     /// By how much evaluating light anew changes the value at a place in a pixel.
-    fn change(&self, index: usize, place: Place, gather: Gather<'_>) -> Rgb {
-        self.look(index, place).map_or(Rgb::ZERO, |(_, hit)| {
-            self.shade.value(&hit, gather) - self.shade.value(&hit, None)
+    fn change(&self, index: usize, place: Place, gather: Gather<'_>) -> Seen {
+        self.look(index, place).map_or(Seen::default(), |(_, hit)| {
+            let [anew, known] = [gather, None].map(|gather| self.shade.value(&hit, gather));
+            Seen { value: anew.value - known.value, white: anew.white - known.white }
         })
     }
 
@@ -132,7 +136,8 @@ impl<'a> Tracer<'a> {
     /// What is met at a place in a pixel, and in which direction.
     fn look(&self, index: usize, place: Place) -> Option<(DVec3, Hit)> {
         let direction = self.direction(index, place);
-        let hit = self.caster.first(self.rays.eye, direction.normalize(), Sides::Front)?;
+        let ray = (self.rays.eye, direction.normalize());
+        let hit = self.caster.first_of(ray, Sides::Front, |hit| self.shade.is_there(hit))?;
         Some((direction, hit))
     }
 
@@ -166,14 +171,16 @@ impl Pixel {
     /// Adds samples that are a `share` of all.
     fn add(&mut self, more: &Self, share: f64) {
         self.value = self.value.lerp(more.value, share);
+        self.white = self.white.lerp(more.white, share);
         self.coverage += (more.coverage - self.coverage) * share;
         self.line += (more.line - self.line) * share;
     }
 
     /// Changes all samples alike.
-    fn change(&mut self, change: Rgb) {
-        self.value = (self.value + change).max(Rgb::ZERO);
-        self.range = self.range.map(|value| value + change);
+    fn change(&mut self, change: Seen) {
+        self.value = (self.value + change.value).max(Rgb::ZERO);
+        self.white = (self.white + change.white).max(Rgb::ZERO);
+        self.range = self.range.map(|value| value + change.value);
     }
 }
 
@@ -211,7 +218,7 @@ impl<'a> Work<'a, '_> {
     }
 
     /// Changes by evaluating light anew at one place of each pixel.
-    fn changes(&mut self, pixels: &[usize], place: Place, part: Range<f64>) -> Vec<Rgb> {
+    fn changes(&mut self, pixels: &[usize], place: Place, part: Range<f64>) -> Vec<Seen> {
         let tracer = self.tracer;
         self.batches(pixels, part, |index, gather, _| tracer.change(index, place, gather))
     }

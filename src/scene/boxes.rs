@@ -18,6 +18,22 @@ pub(crate) fn around(points: impl IntoIterator<Item = DVec3>) -> Bounds {
     points.into_iter().fold(NOWHERE, |(low, high), p| (low.min(p), high.max(p)))
 }
 
+/// How many times its size a box may be from the origin before single precision shows: it holds places there to a
+/// millionth of the size.
+const FAR: f64 = 16.0;
+
+/// A place in a box far from the origin around which its places are to be told in single precision; itself a round
+/// number, and exact in that. `None` for a box that is not far.
+pub(crate) fn local_origin((low, high): Bounds) -> Option<DVec3> {
+    let size = (high - low).max_element();
+    let far = low.abs().max(high.abs()).max_element();
+    if !(size > 0.0 && far > FAR * size && far.is_finite()) {
+        return None;
+    }
+    let unit = size.log2().floor().exp2();
+    Some((((low + high) / (2.0 * unit)).round() * unit).as_vec3().as_dvec3())
+}
+
 /// Boxes in an order in which neighbours are close, under a binary tree of the boxes around them.
 #[derive(Debug)]
 pub(crate) struct Tree {

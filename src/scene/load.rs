@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::path::Path;
 
+use super::boxes::local_origin;
 use super::notes::{counted, listed};
 use super::texture::mean;
 use super::{
@@ -41,6 +42,13 @@ const USUAL: Range<f64> = 0.1..500.0;
 
 fn note_size(scene: &mut Scene) {
     let extent = scene.extent();
+    if let Some(origin) = scene.bounds().and_then(local_origin) {
+        scene.notes.push(format!(
+            "the scene lies {:.0} m from the origin: a GLB of it has coordinates around ({}, {}, {}) m and a node that moves \
+             them there, a PLY double precision",
+            origin.length(), origin.x, origin.y, origin.z
+        ));
+    }
     if extent > 0.0 && !USUAL.contains(&extent) {
         scene.notes.push(format!("the scene is {extent:.3} m across: is its unit the metre?"));
     }

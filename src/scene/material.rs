@@ -22,6 +22,8 @@ pub struct Material {
     pub texture: Option<u32>,
     /// Index into [`super::Scene::textures`] of the picture of the emission.
     pub emission_texture: Option<u32>,
+    /// Alpha of the reflectance's picture, 0..=1, below which there is no surface to be seen.
+    pub cutoff: Option<f64>,
 }
 
 impl Default for Material {
@@ -33,11 +35,49 @@ impl Default for Material {
             double_sided: false,
             texture: None,
             emission_texture: None,
+            cutoff: None,
         }
     }
 }
 
-/// A picture with repeating borders unless clamped, decoded and as it came.
+/// What a picture shows beyond its borders.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Wrap {
+    /// Itself again.
+    #[default]
+    Repeat,
+    /// Itself again, every other time mirrored.
+    Mirror,
+    /// The colours of its border.
+    Clamp,
+}
+
+impl Wrap {
+    /// The texel, of `count` in a row or column, that lies at a whole number of texels from the first.
+    pub(crate) fn texel(self, place: f64, count: u32) -> usize {
+        let count = f64::from(count);
+        let inside = match self {
+            Self::Repeat => place.rem_euclid(count),
+            Self::Mirror => {
+                let there = place.rem_euclid(2.0 * count);
+                there.min(2.0 * count - 1.0 - there)
+            }
+            Self::Clamp => place,
+        };
+        inside.clamp(0.0, (count - 1.0).max(0.0)) as usize
+    }
+}
+
+/// How a picture is read between and beyond its texels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Sampler {
+    /// Along u and v.
+    pub wrap: [Wrap; 2],
+    /// Whether texels are squares of one colour each when seen from near, and not mixed.
+    pub nearest: bool,
+}
+
+/// A picture, decoded and as it came.
 #[derive(Clone, Debug, Default)]
 pub struct Texture {
     /// File name or the glTF image's name.
@@ -52,19 +92,27 @@ pub struct Texture {
     pub encoded: Vec<u8>,
     /// `image/png` or `image/jpeg`.
     pub mime_type: String,
-    /// Whether coordinates outside 0..=1 repeat the picture (else they take its border), along u and v.
-    pub repeat: [bool; 2],
+    /// Opacities, 0 to 255, as many as texels; empty for a picture that is opaque all over.
+    pub alpha: Vec<u8>,
+    /// How it is read.
+    pub sampler: Sampler,
 }
 
+/// Pictures with a channel at least as bright as this somewhere need not be brightened to be seen well.
+const BRIGHT: f32 = 0.9;
+
 impl Texture {
+    /// The brightest channel of all texels, 0..=1, by which the picture is divided to be shown; 1 if that is near it.
+    pub fn white(&self) -> f64 {
+        let brightest = self.texels.iter().flatten().copied().fold(0.0, f32::max);
+        if brightest > 0.0 && brightest < BRIGHT { f64::from(brightest) } else { 1.0 }
+    }
+
     /// The texel at texture coordinates `uv`, linear RGB; black for a picture without texels.
     pub fn sample(&self, uv: DVec2) -> Rgb {
-        let index = |coordinate: f64, count: u32, repeat: bool| {
-            let wrapped = if repeat { coordinate - coordinate.floor() } else { coordinate };
-            ((wrapped * f64::from(count)) as usize).min(count.saturating_sub(1) as usize)
-        };
-        let column = index(uv.x, self.width, self.repeat[0]);
-        let row = index(uv.y, self.height, self.repeat[1]);
+        let [wrap_u, wrap_v] = self.sampler.wrap;
+        let column = wrap_u.texel((uv.x * f64::from(self.width)).floor(), self.width);
+        let row = wrap_v.texel((uv.y * f64::from(self.height)).floor(), self.height);
         let texel = self.texels.get(row * self.width as usize + column);
         texel.map_or(Rgb::ZERO, |&texel| Vec3::from(texel).as_dvec3())
     }

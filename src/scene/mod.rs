@@ -35,12 +35,13 @@ use smallvec::SmallVec;
 
 use crate::colour::Rgb;
 
+pub(crate) use self::gltf::sampler_of;
 pub use adding::{Amount, AreaLight};
 pub use camera::Camera;
 pub(crate) use light::SUN_RADIUS;
 pub use light::{DESIGN_SKY, Light, NamedLight, Sky, clear_sun};
 pub use load::load;
-pub use material::{MAX_REFLECTANCE, Material, Texture};
+pub use material::{MAX_REFLECTANCE, Material, Sampler, Texture, Wrap};
 pub(crate) use names::{matches, named};
 pub(crate) use notes::note_count;
 pub use photometry::Photometry;
@@ -61,6 +62,8 @@ pub struct Scene {
     pub faces: Vec<Face>,
     /// Names of the objects (OBJ `o`/`g`, glTF nodes) that faces belong to.
     pub objects: Vec<String>,
+    /// The hierarchy that objects and cameras stand in, parents before children; empty in an OBJ file, which has none.
+    pub nodes: Vec<Node>,
     /// How faces look and glow.
     pub materials: Vec<Material>,
     /// Pictures that materials refer to.
@@ -73,6 +76,19 @@ pub struct Scene {
     pub notes: Vec<String>,
     /// The files that all this was read from, so that nothing is written in their place.
     pub files: Vec<PathBuf>,
+}
+
+/// A node of a scene's hierarchy. What it moves is where it belongs already.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Node {
+    /// The file's name for it, empty if it has none.
+    pub name: String,
+    /// Index into [`Scene::nodes`], below its own.
+    pub parent: Option<u32>,
+    /// Index into [`Scene::objects`].
+    pub object: Option<u32>,
+    /// Index into [`Scene::cameras`].
+    pub camera: Option<u32>,
 }
 
 /// A planar polygon; its per-corner lists are empty or as long as `vertices`.

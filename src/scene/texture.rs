@@ -6,7 +6,7 @@ use glam::{DAffine2, DVec2};
 use image::{DynamicImage, ImageFormat, Rgb32FImage};
 
 use super::notes::listed;
-use super::{MAX_REFLECTANCE, Material, Scene, Texture};
+use super::{MAX_REFLECTANCE, Material, Sampler, Scene, Texture};
 use crate::colour::{Rgb, linear_from_srgb};
 
 /// How a file's texture coordinates become the scene's.
@@ -95,7 +95,7 @@ pub(crate) fn note_missing(notes: &mut Vec<String>, materials: &[String]) {
 ///
 /// Integer pictures are taken as sRGB, floating-point ones as linear. `encoded` is kept when it is
 /// PNG or JPEG; anything else is coded again as PNG.
-pub(crate) fn decode(name: &str, encoded: &[u8], repeat: [bool; 2]) -> Result<Texture, String> {
+pub(crate) fn decode(name: &str, encoded: &[u8], sampler: Sampler) -> Result<Texture, String> {
     let format = image::guess_format(encoded).map_err(|error| error.to_string())?;
     let picture =
         image::load_from_memory_with_format(encoded, format).map_err(|error| error.to_string())?;
@@ -108,17 +108,32 @@ pub(crate) fn decode(name: &str, encoded: &[u8], repeat: [bool; 2]) -> Result<Te
         name: name.to_owned(),
         width: picture.width(),
         height: picture.height(),
+        alpha: opacities(&picture),
         texels: linear_texels(picture),
         encoded,
         mime_type: mime_type.to_owned(),
-        repeat,
+        sampler,
     })
 }
 
+/// Nothing for a picture without holes.
+fn opacities(picture: &DynamicImage) -> Vec<u8> {
+    if !picture.color().has_alpha() {
+        return Vec::new();
+    }
+    let alpha: Vec<u8> = picture.to_rgba8().pixels().map(|pixel| pixel.0[3]).collect();
+    if alpha.iter().all(|&alpha| alpha == u8::MAX) { Vec::new() } else { alpha }
+}
+
 fn as_png(picture: &DynamicImage) -> Result<Vec<u8>, String> {
-    let coded = DynamicImage::ImageRgb32F(coded_floats(picture));
+    let coded = match picture.color().has_alpha() && !is_linear(picture) {
+        true => DynamicImage::ImageRgba8(picture.to_rgba8()),
+        false => {
+            DynamicImage::ImageRgb8(DynamicImage::ImageRgb32F(coded_floats(picture)).to_rgb8())
+        }
+    };
     let mut bytes = Cursor::new(Vec::new());
-    let written = coded.to_rgb8().write_to(&mut bytes, ImageFormat::Png);
+    let written = coded.write_to(&mut bytes, ImageFormat::Png);
     written.map_err(|error| error.to_string())?;
     Ok(bytes.into_inner())
 }
@@ -168,7 +183,7 @@ mod tests {
         let picture =
             DynamicImage::ImageRgb8(image::RgbImage::from_pixel(2, 1, image::Rgb([188, 0, 255])));
         let bytes = encoded(ImageFormat::Png, &picture);
-        let texture = decode("t", &bytes, [true; 2]).unwrap();
+        let texture = decode("t", &bytes, Sampler::default()).unwrap();
         assert_eq!((texture.width, texture.height, texture.texels.len()), (2, 1, 2));
         assert!((texture.texels[1][0] - 0.502_886_5).abs() < 1e-5, "{:?}", texture.texels);
         assert_eq!(texture.encoded, bytes);
@@ -178,10 +193,11 @@ mod tests {
     fn floating_pictures_are_linear_and_coded_again() {
         let picture =
             DynamicImage::ImageRgb32F(Rgb32FImage::from_pixel(1, 1, image::Rgb([0.5, 4.0, 0.0])));
-        let texture = decode("t", &encoded(ImageFormat::OpenExr, &picture), [true; 2]).unwrap();
+        let texture =
+            decode("t", &encoded(ImageFormat::OpenExr, &picture), Sampler::default()).unwrap();
         assert_eq!(texture.texels, [[0.5, 4.0, 0.0]]);
         assert_eq!(texture.mime_type, "image/png");
-        let again = decode("t", &texture.encoded, [true; 2]).unwrap();
+        let again = decode("t", &texture.encoded, Sampler::default()).unwrap();
         assert!((again.texels[0][0] - 0.5).abs() < 0.01, "{:?}", again.texels);
     }
 
@@ -205,7 +221,7 @@ mod tests {
 
     #[test]
     fn what_is_no_picture_is_refused() {
-        assert!(decode("t", b"not a picture", [true; 2]).is_err());
-        assert!(decode("t", b"\x89PNG\r\n\x1a\n broken", [true; 2]).is_err());
+        assert!(decode("t", b"not a picture", Sampler::default()).is_err());
+        assert!(decode("t", b"\x89PNG\r\n\x1a\n broken", Sampler::default()).is_err());
     }
 }

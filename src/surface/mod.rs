@@ -17,7 +17,7 @@ use glam::{DAffine2, DMat2, DVec2, DVec3};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
 use crate::scene::boxes;
-use crate::scene::{Material, NamedLight, Scene, Texture};
+use crate::scene::{Camera, Material, NamedLight, Node, Scene, Texture};
 
 pub use light_group::{LightGroup, StrengthUnit};
 pub use picture::mean_texture;
@@ -33,6 +33,10 @@ pub struct Surfaces {
     pub list: Vec<Surface>,
     /// Names of the scene's objects.
     pub objects: Vec<String>,
+    /// The hierarchy that they stand in.
+    pub nodes: Vec<Node>,
+    /// The scene's cameras, which the hierarchy has places for.
+    pub cameras: Vec<Camera>,
     /// Lights without a surface.
     pub lights: Vec<NamedLight>,
     /// The scene's materials.
@@ -123,6 +127,8 @@ fn of_regions(scene: &Scene, regions: Vec<merge::Region>) -> Surfaces {
     Surfaces {
         list,
         objects: scene.objects.clone(),
+        nodes: scene.nodes.clone(),
+        cameras: scene.cameras.clone(),
         lights: scene.lights.clone(),
         materials: scene.materials.clone(),
         textures: scene.textures.clone(),

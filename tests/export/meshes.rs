@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use radiosity::colour::Rgb;
 use radiosity::export::{Stamp, save};
 use radiosity::reconstruct::{Part, TriMesh};
-use radiosity::scene::Texture;
+use radiosity::scene::{Sampler, Texture, Wrap};
 
 /// Two triangles on a picture and one beside it; vertex 4 belongs to no triangle.
 pub(crate) fn small_mesh() -> TriMesh {
@@ -30,15 +30,28 @@ pub(crate) fn small_mesh() -> TriMesh {
         texture_mean: vec![Rgb::new(0.5, 0.25, 0.0); 6],
         triangles: vec![[0, 1, 2], [0, 2, 3], [3, 2, 5]],
         parts: vec![
-            Part { name: "carpet".to_owned(), triangles: 0..2, texture: Some(0) },
-            Part { name: "bare floor".to_owned(), triangles: 2..3, texture: None },
+            Part {
+                name: "carpet".to_owned(),
+                triangles: 0..2,
+                texture: Some(0),
+                cutoff: Some(0.25),
+                object: None,
+            },
+            Part {
+                name: "bare floor".to_owned(),
+                triangles: 2..3,
+                texture: None,
+                cutoff: None,
+                object: None,
+            },
         ],
         textures: vec![Texture {
             name: "stripes".to_owned(),
             width: 2,
             height: 1,
             texels: vec![[1.0, 0.5, 0.0], [0.0, 0.0, 0.0]],
-            repeat: [true, false],
+            alpha: vec![255, 40],
+            sampler: Sampler { wrap: [Wrap::Mirror, Wrap::Clamp], nearest: true },
             ..Texture::default()
         }],
         ..TriMesh::default()
@@ -95,7 +108,13 @@ fn assemble(
     for &(name, textured, count) in parts {
         let triangles = start..start + count;
         start += count;
-        mesh.parts.push(Part { name: name.to_owned(), triangles, texture: textured.then_some(0) });
+        mesh.parts.push(Part {
+            name: name.to_owned(),
+            triangles,
+            texture: textured.then_some(0),
+            cutoff: None,
+            object: None,
+        });
     }
     mesh
 }

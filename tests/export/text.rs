@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
+use glam::DVec3;
 use proptest::prelude::*;
 use radiosity::colour::{Rgb, linear_from_srgb};
 use radiosity::export::{Stamp, save};
@@ -106,7 +107,7 @@ fn obj_colours_are_the_light_that_falls_on_a_picture() {
     let numbers: Vec<f64> = first.split(' ').map(|number| number.parse().unwrap()).collect();
     assert_eq!(numbers[..3], [0.0, 0.1, 0.0]);
     let scale = exposure_scale(&mesh, Exposure::Automatic);
-    let light = tone_map(Rgb::new(0.1 / 0.5, 0.7 / 0.25, 0.0) * scale).to_array();
+    let light = tone_map(Rgb::new(0.1 / 0.5, 0.7 / 0.25, 0.1 / 0.5) * scale).to_array();
     for (&coded, linear) in numbers[3..].iter().zip(light) {
         assert!((linear_from_srgb(coded) - linear).abs() < 2e-4, "{numbers:?} {light:?}");
     }
@@ -122,4 +123,21 @@ fn obj_brings_its_materials_and_pictures() {
         image::open(directory.join("m-0.png")).unwrap();
         assert_eq!(fs::read_dir(directory).unwrap().count(), 3);
     });
+}
+
+#[test]
+fn far_from_the_origin_coordinates_keep_all_their_digits_and_objects_keep_their_names() {
+    let mut mesh = small_mesh();
+    let at = DVec3::new(448_262.25, 35.5, -5_411_932.125);
+    mesh.positions.iter_mut().for_each(|position| *position += at);
+    mesh.objects = vec!["rug".to_owned()];
+    mesh.parts[0].object = Some(0);
+    let obj = String::from_utf8(bytes_of(&mesh, "m.obj", &Stamp::default())).unwrap();
+    assert!(obj.contains("\nv 448263.25 35.6 -5411931.125 "), "{obj}");
+    assert_eq!(obj.lines().filter(|line| line.starts_with("o ")).collect::<Vec<_>>(), ["o rug"]);
+    let ply = bytes_of(&mesh, "m.ply", &Stamp::default());
+    let body = ply.windows(11).position(|window| window == b"end_header\n").unwrap() + 11;
+    assert!(String::from_utf8_lossy(&ply[..body]).contains("property double x"));
+    let number = |i: usize| f64::from_le_bytes(ply[body + 8 * i..][..8].try_into().unwrap());
+    assert_eq!([0, 1, 2].map(number), mesh.positions[0].to_array());
 }

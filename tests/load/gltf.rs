@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_1_SQRT_2;
 use std::f64::consts::FRAC_PI_2;
 
 use glam::{DVec2, DVec3, Vec3};
-use radiosity::scene::{Light, Scene};
+use radiosity::scene::{Light, Sampler, Scene, Wrap};
 use serde_json::{Value, json};
 
 use crate::asset::{Asset, FLOAT, floats};
@@ -137,7 +137,7 @@ fn textured(info: Value) -> Asset {
         .attribute("TEXCOORD_0", &floats(&[0.; 6]), FLOAT, "VEC2")
         .attribute("TEXCOORD_1", &floats(&[0., 0., 1., 0., 0., 1.]), FLOAT, "VEC2")
         .set("/images", json!([{"uri": "red.png"}]))
-        .set("/samplers", json!([{"wrapS": 33071}]))
+        .set("/samplers", json!([{"wrapS": 33071, "wrapT": 33648, "magFilter": 9728}]))
         .set("/textures", json!([{"source": 0, "sampler": 0}]))
         .set("/materials/0", json!({"pbrMetallicRoughness": {"baseColorTexture": info}}))
 }
@@ -153,8 +153,29 @@ fn pictures_are_laid_on_by_the_chosen_coordinates_and_their_transform() {
         assert!((uv - wanted).length() < 1e-6, "{uv} {wanted}");
     }
     assert_eq!(scene.textures[0].texels, [[1.0, 0.0, 0.0]]);
-    assert_eq!(scene.textures[0].repeat, [false, true]);
+    let sampler = Sampler { wrap: [Wrap::Clamp, Wrap::Mirror], nearest: true };
+    assert_eq!(scene.textures[0].sampler, sampler);
     assert_eq!(scene.textures[0].encoded, red_png());
+}
+
+#[test]
+fn cut_outs_keep_their_holes_and_opaque_pictures_have_none() {
+    let leaf =
+        image::RgbaImage::from_fn(2, 1, |x, _| image::Rgba([9, 200, 9, 100 + 100 * x as u8]));
+    let mut png = std::io::Cursor::new(Vec::new());
+    leaf.write_to(&mut png, image::ImageFormat::Png).unwrap();
+    let read = |picture: Vec<u8>, mode: &str| {
+        let base = json!({"baseColorTexture": {"index": 0}, "baseColorFactor": [1, 1, 1, 0.8]});
+        let material = json!({"pbrMetallicRoughness": base, "alphaMode": mode, "alphaCutoff": 0.4});
+        let asset = textured(json!({"index": 0})).set("/materials/0", material);
+        Folder::new().with("red.png", picture).with("a.gltf", asset.text()).load("a.gltf").unwrap()
+    };
+    let scene = read(png.get_ref().clone(), "MASK");
+    assert_eq!(scene.textures[0].alpha, [100, 200]);
+    assert!((scene.materials[0].cutoff.unwrap() - 0.5).abs() < 1e-6);
+    assert!(scene.notes.iter().any(|note| note.contains("cut-out")), "{:?}", scene.notes);
+    assert_eq!(read(red_png().to_vec(), "MASK").materials[0].cutoff, None);
+    assert_eq!(read(png.into_inner(), "BLEND").materials[0].cutoff, None);
 }
 
 #[test]
@@ -242,4 +263,40 @@ fn points_and_lines_are_ignored_with_a_note() {
     let lines = json!({"attributes": {"POSITION": 0}, "mode": 1});
     asset.json["meshes"][0]["primitives"].as_array_mut().unwrap().push(lines);
     assert_eq!(asset.load().notes, ["1 primitive of points or lines ignored"]);
+}
+
+#[test]
+fn the_hierarchy_of_nodes_is_kept_with_what_stands_in_it() {
+    let scene = Asset::triangle()
+        .set(
+            "/nodes",
+            json!([{"name": "house", "children": [1, 2]}, {"name": "rug", "mesh": 0},
+            {"name": "view", "camera": 0, "translation": [0, 1, 2]}]),
+        )
+        .set("/scenes", json!([{"nodes": [0]}]))
+        .set("/scene", json!(0))
+        .set(
+            "/cameras",
+            json!([{"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.1}}]),
+        )
+        .load();
+    let found: Vec<_> = scene
+        .nodes
+        .iter()
+        .map(|node| (node.name.as_str(), node.parent, node.object, node.camera))
+        .collect();
+    let expected = [
+        ("house", None, None, None),
+        ("rug", Some(0), Some(0), None),
+        ("view", Some(0), None, Some(0)),
+    ];
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn a_scene_far_from_the_origin_is_told() {
+    let triangle = Asset::triangle();
+    assert!(triangle.load().notes.is_empty(), "near");
+    let far = triangle.set("/nodes/0", json!({"mesh": 0, "translation": [448262, 35, -5411932]}));
+    assert!(far.load().notes.iter().any(|note| note.contains("from the origin")));
 }

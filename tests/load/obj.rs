@@ -1,7 +1,7 @@
 //! OBJ and MTL.
 
 use glam::{DVec2, DVec3, Vec3};
-use radiosity::scene::{LoadOptions, Scene, Sides, load};
+use radiosity::scene::{LoadOptions, Scene, Sides, Wrap, load};
 
 use crate::{Folder, red_png};
 
@@ -168,7 +168,7 @@ fn textures_are_counted_from_the_top_after_their_options() {
     let scene = folder.load("s.obj").unwrap();
     let expected = [[0.5, 0.75], [2.5, 0.75], [2.5, -3.25], [0.5, -3.25]].map(DVec2::from);
     assert_eq!(scene.faces[0].uvs[..], expected);
-    assert_eq!(scene.textures[0].repeat, [false; 2]);
+    assert_eq!(scene.textures[0].sampler.wrap, [Wrap::Clamp; 2]);
     assert_eq!(scene.textures[0].texels, [[1.0, 0.0, 0.0]]);
     assert_eq!(scene.materials[0].reflectance, DVec3::splat(0.99));
 }

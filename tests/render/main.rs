@@ -10,10 +10,10 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use glam::DVec3;
-use radiosity::colour::{Rgb, luminance};
+use radiosity::colour::{Rgb, linear_from_srgb, luminance};
 use radiosity::reconstruct::Part;
 use radiosity::render::{Display, Picture, RenderOptions, View, automatic_camera, render, save};
-use radiosity::scene::{Camera, Light, Sky, Texture};
+use radiosity::scene::{Camera, Light, Sampler, Sky, Texture, Wrap};
 use radiosity::{Error, TriMesh};
 
 /// Adds a parallelogram of `cells` × `cells` squares, seen from where `u` turns left to `v`.
@@ -38,7 +38,13 @@ fn add_grid(mesh: &mut TriMesh, [origin, u, v]: [DVec3; 3], cells: u32, radiosit
         }
     }
     let triangles = first_triangle..mesh.triangles.len();
-    mesh.parts.push(Part { name: "grid".to_owned(), triangles, texture: None });
+    mesh.parts.push(Part {
+        name: "grid".to_owned(),
+        triangles,
+        texture: None,
+        cutoff: None,
+        object: None,
+    });
 }
 
 /// A square of 2 m in the plane z = 0 that faces +z, around the origin.
@@ -188,13 +194,55 @@ fn a_texture_replaces_its_mean() {
         width: 2,
         height: 1,
         texels: vec![[0.0; 3], [1.0; 3]],
-        repeat: [false; 2],
+        sampler: Sampler { wrap: [Wrap::Clamp; 2], nearest: false },
         ..Texture::default()
     });
     mesh.parts[0].texture = Some(0);
     let picture = render(&mesh, &camera_in_front(5.0), &small(16, 16));
     let row = &picture.values[8 * 16..9 * 16];
     assert!(row[1].x < 1e-6 && (row[14].x - 1.0).abs() < 1e-6, "{row:?}");
+}
+
+#[test]
+fn a_picture_of_one_grey_is_shown_as_a_plain_surface_and_darker_texels_in_proportion() {
+    let mut mesh = square(1, PI * 0.8);
+    let plain = shown(&render(&mesh, &camera_in_front(5.0), &small(16, 16)), &EXPOSED);
+    mesh.textures.push(Texture {
+        width: 2,
+        height: 1,
+        texels: vec![[0.1; 3], [0.2; 3]],
+        sampler: Sampler { wrap: [Wrap::Clamp; 2], nearest: false },
+        ..Texture::default()
+    });
+    mesh.texture_mean.fill(Rgb::splat(0.2));
+    mesh.parts[0].texture = Some(0);
+    let picture = shown(&render(&mesh, &camera_in_front(5.0), &small(16, 16)), &EXPOSED);
+    let linear = |image: &image::RgbImage, x| {
+        linear_from_srgb(f64::from(image.get_pixel(x, 8).0[0]) / 255.0)
+    };
+    assert_eq!(picture.get_pixel(14, 8), plain.get_pixel(14, 8));
+    let ratio = linear(&picture, 1) / linear(&picture, 14);
+    assert!((ratio - 0.5).abs() < 0.01, "{ratio}");
+}
+
+#[test]
+fn a_ray_goes_through_the_holes_of_a_cut_out() {
+    let mut mesh = square(1, PI);
+    mesh.textures.push(Texture {
+        width: 2,
+        height: 1,
+        texels: vec![[1.0; 3]; 2],
+        alpha: vec![100, 200],
+        sampler: Sampler { wrap: [Wrap::Clamp; 2], nearest: true },
+        ..Texture::default()
+    });
+    mesh.parts[0].texture = Some(0);
+    let seen = |cutoff| {
+        mesh.parts[0].cutoff = cutoff;
+        let picture = render(&mesh, &camera_in_front(5.0), &small(16, 16));
+        [5, 10].map(|column| picture.coverage[8 * 16 + column])
+    };
+    assert_eq!([None, Some(0.5), Some(0.9)].map(seen), [[1.0; 2], [0.0, 1.0], [0.0; 2]]);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
+use glam::DVec3;
 use gltf_json::extensions::material::{
     EmissiveStrength, EmissiveStrengthFactor, Material as MaterialExtensions,
 };
@@ -15,8 +16,9 @@ use gltf_json::{Asset, Index, Material};
 use serde_json::json;
 
 use super::document::Document;
-use super::materials::{Materials, first_uv};
+use super::materials::{Materials, alpha_cutoff, alpha_mode, first_uv};
 use super::record::Record;
+use super::tree::Tree;
 use crate::export::look::{Look, singles};
 use crate::lightmap::{CoarsePart, Lightmap};
 
@@ -28,13 +30,15 @@ pub(crate) fn write(
     out: &mut impl Write,
 ) -> io::Result<()> {
     let mut document = Document::default();
-    let mut materials = Materials::default();
+    let mut materials = Materials::new(map.surfaces.textures.iter().map(|picture| (picture, 1.0)));
     let mut primitives = Vec::new();
     for part in &map.atlas.mesh.parts {
         let material = material(&mut document, &mut materials, (map, part))?;
-        primitives.push(primitive(&mut document, (map, part), material));
+        primitives.push(primitive(&mut document, (map, part, look.origin), material));
     }
-    super::add_scene(&mut document, primitives);
+    let (objects, nodes, cameras) = (&[][..], &[][..], &map.surfaces.cameras);
+    let tree = Tree { objects, nodes, cameras, origin: look.origin, extent: map.surfaces.extent };
+    tree.add(&mut document.root, BTreeMap::from([(None, primitives)]));
     let mut record = serde_json::to_value(Record::new(look))?;
     if let Some(fields) = record.as_object_mut() {
         fields.remove("unit");
@@ -71,7 +75,7 @@ fn material(
 ) -> io::Result<Index<Material>> {
     let own = &map.surfaces.materials[part.material as usize];
     let mut texture = |number: Option<u32>| {
-        let stored = number.map(|n| materials.texture(document, &map.surfaces.textures, n));
+        let stored = number.map(|n| materials.texture(document, n));
         stored.transpose().map(|index| index.map(first_uv))
     };
     let (base_color_texture, emissive_texture) =
@@ -89,6 +93,8 @@ fn material(
             metallic_factor: StrengthFactor(0.0),
             ..PbrMetallicRoughness::default()
         },
+        alpha_mode: alpha_mode(own.cutoff),
+        alpha_cutoff: alpha_cutoff(own.cutoff),
         emissive_factor: EmissiveFactor(singles(own.emission / strength)),
         emissive_texture: emissive_texture.filter(|_| own.emission.max_element() > 0.0),
         extensions: (strength > 1.0).then(|| MaterialExtensions {
@@ -101,7 +107,7 @@ fn material(
 
 fn primitive(
     document: &mut Document,
-    (map, part): (&Lightmap, &CoarsePart),
+    (map, part, origin): (&Lightmap, &CoarsePart, DVec3),
     material: Index<Material>,
 ) -> Primitive {
     let mesh = &map.atlas.mesh;
@@ -112,7 +118,8 @@ fn primitive(
     let range = first as usize..corners().max().map_or(0, |last| last as usize + 1);
     let indices: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(|corner| corner - first)).collect();
 
-    let positions: Vec<_> = mesh.positions[range.clone()].iter().map(|&p| singles(p)).collect();
+    let positions: Vec<_> =
+        mesh.positions[range.clone()].iter().map(|&p| singles(p - origin)).collect();
     let normals: Vec<_> = mesh.normals[range.clone()].iter().map(|n| n.to_array()).collect();
     let uvs: Vec<_> = mesh.uvs[range.clone()].iter().map(|uv| uv.to_array()).collect();
     let light_uvs: Vec<_> = mesh.light_uvs[range.clone()].iter().map(|uv| uv.to_array()).collect();

@@ -1,25 +1,28 @@
-//! GLB: one mesh, one primitive a material, shown as it is lit; and the way back.
+//! GLB: the scene's nodes, one mesh an object, one primitive a material, shown as it is lit; and the way back.
 
 mod accessors;
 mod document;
+mod hung;
 mod lightmap;
 mod materials;
 mod read;
 mod record;
+mod tree;
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
+use gltf_json::Asset;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
-use gltf_json::scene::Scene;
 use gltf_json::validation::Checked;
-use gltf_json::{Asset, Mesh, Node};
 
 use super::group::{self, Group};
 use super::look::{Look, singles};
+use crate::reconstruct::TriMesh;
 use document::Document;
 use materials::Materials;
 use record::Record;
+use tree::Tree;
 
 pub(crate) use lightmap::write as write_lightmap;
 pub use read::load_solved;
@@ -37,15 +40,19 @@ const LIGHT: &str = "LIGHT_";
 /// Writes a mesh that has triangles as GLB.
 pub(crate) fn write(look: &Look, out: &mut impl Write) -> io::Result<()> {
     let mut document = Document::default();
-    let mut materials = Materials::default();
-    let mut primitives = Vec::new();
-    for group in group::by_material(look.mesh) {
-        let material = materials.add(&mut document, look.mesh, &group)?;
+    let pictures = look.mesh.textures.iter().zip(look.whites.iter().copied());
+    let mut materials = Materials::new(pictures);
+    let mut meshes: BTreeMap<Option<u32>, Vec<Primitive>> = BTreeMap::new();
+    for group in group::by_object(look.mesh) {
+        let material = materials.add(&mut document, &group)?;
         let mut primitive = primitive(&mut document, look, &group);
         primitive.material = Some(material);
-        primitives.push(primitive);
+        meshes.entry(group.object).or_default().push(primitive);
     }
-    add_scene(&mut document, primitives);
+    let TriMesh { objects, nodes, cameras, .. } = look.mesh;
+    let (low, high) = look.mesh.bounds();
+    let tree = Tree { objects, nodes, cameras, origin: look.origin, extent: low.distance(high) };
+    tree.add(&mut document.root, meshes);
     document.root.asset = Asset {
         generator: Some(concat!("radiosity ", env!("CARGO_PKG_VERSION")).to_owned()),
         extras: Some(Record::new(look).to_raw()?),
@@ -55,28 +62,13 @@ pub(crate) fn write(look: &Look, out: &mut impl Write) -> io::Result<()> {
     document.write(out)
 }
 
-fn add_scene(document: &mut Document, primitives: Vec<Primitive>) {
-    let name = Some("radiosity".to_owned());
-    let root = &mut document.root;
-    let mesh = root.push(Mesh {
-        name: name.clone(),
-        primitives,
-        weights: None,
-        extensions: None,
-        extras: None,
-    });
-    let node = root.push(Node { name: name.clone(), mesh: Some(mesh), ..Node::default() });
-    let scene = Scene { name, nodes: vec![node], extensions: None, extras: None };
-    root.scene = Some(root.push(scene));
-}
-
 fn primitive(document: &mut Document, look: &Look, group: &Group) -> Primitive {
     let mesh = look.mesh;
     let vertices = || group.vertices.iter().map(|&vertex| vertex as usize);
-    let positions: Vec<_> = vertices().map(|v| singles(mesh.positions[v])).collect();
+    let positions: Vec<_> = vertices().map(|v| singles(mesh.positions[v] - look.origin)).collect();
     let normals: Vec<_> = vertices().map(|v| mesh.normals[v].to_array()).collect();
     let radiosity: Vec<_> = vertices().map(|v| singles(mesh.radiosity[v])).collect();
-    let light = group.vertices.iter().map(|&vertex| look.light(vertex).to_array());
+    let light = group.vertices.iter().map(|&vertex| look.shown(vertex, group).to_array());
     let mut attributes = BTreeMap::from([
         (Semantic::Positions, document.positions(&positions)),
         (Semantic::Normals, document.vectors(&normals)),

@@ -4,22 +4,25 @@ use std::fs;
 use std::path::Path;
 
 use glam::{DVec3, Vec2, Vec3};
+use gltf_json::Root;
+use gltf_json::material::AlphaMode;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
-use gltf_json::texture::WrappingMode;
 use gltf_json::validation::Checked;
-use gltf_json::{Node, Root};
 
 use super::accessors::Arrays;
-use super::record::Record;
+use super::hung::Hung;
+use super::record::{Brightened, Record};
 use super::{LIGHT, RADIOSITY, TEXTURE_MEAN};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
 use crate::export::Stamp;
 use crate::reconstruct::{LightShare, Part, TriMesh};
-use crate::scene::{Texture, decode};
+use crate::scene::{Texture, decode, sampler_of};
 use crate::surface::LightGroup;
 
 const NO_RADIOSITY: &str = "carries no radiosity (attribute _RADIOSITY); `radiosity solve SCENE -o FILE.glb` makes such a file";
+
+const REARRANGED: &str = "was rearranged by another program; write it anew with radiosity";
 
 type Outcome<T> = std::result::Result<T, String>;
 
@@ -41,24 +44,22 @@ fn read(bytes: &[u8]) -> Outcome<(TriMesh, Stamp)> {
     let lights = record.iter().flat_map(|record| &record.lights);
     let share = |group: &LightGroup| LightShare { group: group.clone(), radiosity: Vec::new() };
     let mut mesh = TriMesh { lights: lights.map(share).collect(), ..TriMesh::default() };
-    for primitive in root.meshes.iter().flat_map(|mesh| &mesh.primitives) {
-        append(&mut mesh, &arrays, primitive)?;
+    let (hung, mut objects) = (Hung::new(&root), Vec::new());
+    for (number, primitives) in root.meshes.iter().map(|mesh| &mesh.primitives).enumerate() {
+        let offset = hung.offset(number).ok_or(REARRANGED)?;
+        let (object, first) = (hung.object(&mut mesh, number), mesh.positions.len());
+        for primitive in primitives {
+            append(&mut mesh, &arrays, (primitive, object))?;
+        }
+        mesh.positions[first..].iter_mut().for_each(|position| *position += offset);
+        objects.push(object);
     }
+    hung.read(&mut mesh, &objects);
     mesh.textures = textures(&arrays)?;
-    if root.nodes.iter().any(is_moved) {
-        return Err("was rearranged by another program; write it anew with radiosity".to_owned());
-    }
     if mesh.triangles.is_empty() {
         return Err("holds no triangles".to_owned());
     }
     Ok((mesh, record.map(Record::into_stamp).unwrap_or_default()))
-}
-
-fn is_moved(node: &Node) -> bool {
-    node.matrix.is_some()
-        || node.translation.is_some()
-        || node.rotation.is_some()
-        || node.scale.is_some()
 }
 
 /// The JSON and the binary chunk.
@@ -77,8 +78,12 @@ fn chunks(bytes: &[u8]) -> Outcome<(&[u8], &[u8])> {
     }
 }
 
-/// Adds one primitive as one part.
-fn append(mesh: &mut TriMesh, arrays: &Arrays, primitive: &Primitive) -> Outcome<()> {
+/// Adds one primitive of an object as one part.
+fn append(
+    mesh: &mut TriMesh,
+    arrays: &Arrays,
+    (primitive, object): (&Primitive, Option<u32>),
+) -> Outcome<()> {
     if primitive.mode != Checked::Valid(Mode::Triangles) {
         return Err("holds points or lines, which radiosity does not write".to_owned());
     }
@@ -92,8 +97,8 @@ fn append(mesh: &mut TriMesh, arrays: &Arrays, primitive: &Primitive) -> Outcome
     let triangles = arrays.triangles(indices, count)?;
     let start = mesh.triangles.len();
     mesh.triangles.extend(triangles.iter().map(|corners| corners.map(|corner| offset + corner)));
-    let (name, texture) = material(arrays, primitive)?;
-    mesh.parts.push(Part { name, triangles: start..mesh.triangles.len(), texture });
+    let look = material(arrays, primitive)?;
+    mesh.parts.push(Part { triangles: start..mesh.triangles.len(), object, ..look });
     Ok(())
 }
 
@@ -138,10 +143,10 @@ fn append_vertices(mesh: &mut TriMesh, arrays: &Arrays, primitive: &Primitive) -
     Ok(())
 }
 
-/// The name of a primitive's material, and its texture.
-fn material(arrays: &Arrays, primitive: &Primitive) -> Outcome<(String, Option<u32>)> {
+/// A part without triangles that has the name of a primitive's material, its texture and its holes.
+fn material(arrays: &Arrays, primitive: &Primitive) -> Outcome<Part> {
     let Some(index) = primitive.material else {
-        return Ok((String::new(), None));
+        return Ok(Part::default());
     };
     let materials = &arrays.root.materials;
     let material = materials.get(index.value()).ok_or("a primitive's material is missing")?;
@@ -150,7 +155,14 @@ fn material(arrays: &Arrays, primitive: &Primitive) -> Outcome<(String, Option<u
     if texture.is_some_and(|texture| texture >= arrays.root.textures.len()) {
         return Err("a material's texture is missing".to_owned());
     }
-    Ok((material.name.clone().unwrap_or_default(), texture.map(|texture| texture as u32)))
+    let is_cut_out = material.alpha_mode == Checked::Valid(AlphaMode::Mask);
+    let cutoff = material.alpha_cutoff.map_or(0.5, |cutoff| f64::from(cutoff.0));
+    Ok(Part {
+        name: material.name.clone().unwrap_or_default(),
+        texture: texture.map(|texture| texture as u32),
+        cutoff: is_cut_out.then_some(cutoff),
+        ..Part::default()
+    })
 }
 
 fn textures(arrays: &Arrays) -> Outcome<Vec<Texture>> {
@@ -162,8 +174,26 @@ fn read_texture(arrays: &Arrays, texture: &gltf_json::Texture) -> Outcome<Textur
     let image = root.images.get(texture.source.value()).ok_or("a texture has no image")?;
     let view = image.buffer_view.ok_or("an image is outside of the file")?;
     let sampler = texture.sampler.and_then(|index| root.samplers.get(index.value()));
-    let repeats = |mode| mode != Checked::Valid(WrappingMode::ClampToEdge);
-    let repeat = sampler.map_or([true; 2], |s| [repeats(s.wrap_s), repeats(s.wrap_t)]);
+    let sampler = sampler.map(sampler_of).unwrap_or_default();
     let name = image.name.as_deref().unwrap_or_default();
-    decode(name, arrays.view(view)?, repeat).map_err(|error| format!("picture {name}: {error}"))
+    let picture = decode(name, arrays.view(view)?, sampler)
+        .map_err(|error| format!("picture {name}: {error}"))?;
+    Ok(match white(texture) {
+        Some(white) => darkened(picture, white),
+        None => picture,
+    })
+}
+
+/// What white in a brightened picture stands for.
+fn white(texture: &gltf_json::Texture) -> Option<f64> {
+    let extras = texture.extras.as_ref()?;
+    let Brightened { white } = serde_json::from_str(extras.get()).ok()?;
+    (white > 0.0 && white < 1.0).then_some(white)
+}
+
+/// A picture as it was before it was brightened; its file is no longer it.
+fn darkened(picture: Texture, white: f64) -> Texture {
+    let darker = |texel: &[f32; 3]| texel.map(|x| (f64::from(x) * white) as f32);
+    let texels = picture.texels.iter().map(darker).collect();
+    Texture { texels, encoded: Vec::new(), ..picture }
 }

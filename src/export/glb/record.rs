@@ -64,3 +64,16 @@ impl Record {
         Stamp { exposure, settings: self.settings, finished: self.finished }
     }
 }
+
+/// The `extras` of a texture whose picture was brightened to be shown.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Brightened {
+    /// What white in the picture stands for, 0..=1.
+    pub(super) white: f64,
+}
+
+impl Brightened {
+    pub(super) fn to_raw(&self) -> serde_json::Result<Box<RawValue>> {
+        serde_json::value::to_raw_value(self)
+    }
+}

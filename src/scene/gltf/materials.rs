@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use ::gltf::json::material::AlphaMode;
-use ::gltf::json::texture::{Info, Sampler, WrappingMode};
+use ::gltf::json::texture::{Info, MagFilter, WrappingMode};
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{self, Index};
 use glam::{DAffine2, DMat2, DVec2, Vec2, Vec3};
@@ -11,11 +11,11 @@ use glam::{DAffine2, DMat2, DVec2, Vec2, Vec3};
 use super::file::File;
 use crate::colour::Rgb;
 use crate::error::Result;
-use crate::scene::notes::{listed, note_count};
+use crate::scene::notes::listed;
 use crate::scene::texture::{
     Picture, UvMapping, attach_pictures, decode, note_missing, without_picture,
 };
-use crate::scene::{Material, Scene};
+use crate::scene::{Material, Sampler, Scene, Wrap};
 
 /// What materials say that does not go into the scene's.
 #[derive(Default)]
@@ -28,10 +28,10 @@ pub(super) struct Known {
 
 /// Reads all materials into `scene`.
 pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Known> {
-    let mut reader =
-        Reader { file, scene, pictures: HashMap::new(), mirrored: 0, pictureless: Vec::new() };
+    let mut reader = Reader { file, scene, pictures: HashMap::new(), pictureless: Vec::new() };
     let mut known = Known::default();
-    let (mut metals, mut clear, mut dim) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut metals, mut clear) = (Vec::new(), Vec::new());
+    let (mut dim, mut cut_out) = (Vec::new(), Vec::new());
     for (index, from) in file.root.materials.iter().enumerate() {
         let (material, mapping) = reader.material(index, from)?;
         if is_metal(from) {
@@ -41,15 +41,16 @@ pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Known> {
         if through > MOSTLY_CLEAR && material.emission == Rgb::ZERO {
             clear.push(material.name.clone());
             known.clear.push(index);
+        } else if material.cutoff.is_some() {
+            cut_out.push(material.name.clone());
         } else if through > 0.0 || from.alpha_mode != Checked::Valid(AlphaMode::Opaque) {
             dim.push(material.name.clone());
         }
         reader.scene.materials.push(material);
         known.mappings.push(mapping);
     }
-    let (mirrored, pictureless) = (reader.mirrored, reader.pictureless);
+    let pictureless = reader.pictureless;
     note_missing(&mut scene.notes, &pictureless);
-    note_count(&mut scene.notes, mirrored, "texture use", "repeated instead of mirrored");
     if !metals.is_empty() {
         scene
             .notes
@@ -58,6 +59,11 @@ pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Known> {
     if !clear.is_empty() {
         let names = listed(&clear);
         scene.notes.push(format!("left out, as they let most light through: {names}"));
+    }
+    if !cut_out.is_empty() {
+        let names = listed(&cut_out);
+        let what = "cut-outs are shown with their holes, which hold light back all the same";
+        scene.notes.push(format!("{what}: {names}"));
     }
     if !dim.is_empty() {
         scene.notes.push(format!("transparency ignored, taken as opaque: {}", listed(&dim)));
@@ -98,9 +104,8 @@ fn is_metal(material: &json::Material) -> bool {
 struct Reader<'a> {
     file: &'a File,
     scene: &'a mut Scene,
-    /// Index into the scene's textures by glTF image and wrapping; `None` for unreadable ones.
-    pictures: HashMap<(usize, [bool; 2]), Option<u32>>,
-    mirrored: usize,
+    /// Index into the scene's textures by glTF image and sampler; `None` for unreadable ones.
+    pictures: HashMap<(usize, Sampler), Option<u32>>,
     /// Names of the materials whose picture is missing and who say nothing else.
     pictureless: Vec<String>,
 }
@@ -135,6 +140,9 @@ impl Reader<'_> {
         let glows = material.emission != Rgb::ZERO;
         let emission = self.picture(from.emissive_texture.as_ref().filter(|_| glows))?;
         let mapping = attach_pictures(self.scene, &mut material, reflectance, emission);
+        let has_holes =
+            |picture: &Picture| !self.scene.textures[picture.texture as usize].alpha.is_empty();
+        material.cutoff = cutoff(from).filter(|_| reflectance.as_ref().is_some_and(has_holes));
         Ok((material, mapping))
     }
 
@@ -150,15 +158,15 @@ impl Reader<'_> {
             self.scene.notes.push(format!("texture {} {why} left out", info.index));
             return Ok(None);
         }
-        let repeat = match texture.sampler {
-            Some(sampler) => self.repeat(self.file.get(sampler, "sampler")?),
-            None => [true; 2],
+        let sampler = match texture.sampler {
+            Some(sampler) => sampler_of(self.file.get(sampler, "sampler")?),
+            None => Sampler::default(),
         };
-        let key = (texture.source.value(), repeat);
+        let key = (texture.source.value(), sampler);
         let texture = match self.pictures.get(&key) {
             Some(&known) => known,
             None => {
-                let read = self.decoded(texture.source, repeat);
+                let read = self.decoded(texture.source, sampler);
                 self.pictures.insert(key, read);
                 read
             }
@@ -167,12 +175,12 @@ impl Reader<'_> {
     }
 
     /// Reads a picture into the scene; an unreadable one costs a note, not the scene.
-    fn decoded(&mut self, index: Index<json::Image>, repeat: [bool; 2]) -> Option<u32> {
+    fn decoded(&mut self, index: Index<json::Image>, sampler: Sampler) -> Option<u32> {
         let image = self.file.root.get(index)?;
         let uri = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
         let name = image.name.as_deref().or(uri);
         let name = name.map_or_else(|| format!("image {index}"), str::to_owned);
-        match self.encoded(image).and_then(|bytes| decode(&name, &bytes, repeat)) {
+        match self.encoded(image).and_then(|bytes| decode(&name, &bytes, sampler)) {
             Ok(picture) => {
                 self.scene.textures.push(picture);
                 Some(self.scene.textures.len() as u32 - 1)
@@ -192,13 +200,27 @@ impl Reader<'_> {
         };
         bytes.map_err(|error| error.to_string())
     }
+}
 
-    fn repeat(&mut self, sampler: &Sampler) -> [bool; 2] {
-        let wraps = [&sampler.wrap_s, &sampler.wrap_t];
-        let mirrored = wraps.contains(&&Checked::Valid(WrappingMode::MirroredRepeat));
-        self.mirrored += usize::from(mirrored);
-        wraps.map(|wrap| *wrap != Checked::Valid(WrappingMode::ClampToEdge))
+/// How a sampler reads a picture from near; from afar, colours are always mixed.
+pub(crate) fn sampler_of(sampler: &json::texture::Sampler) -> Sampler {
+    let wrap = |mode| match mode {
+        Checked::Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
+        Checked::Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
+        _ => Wrap::Repeat,
+    };
+    Sampler {
+        wrap: [wrap(sampler.wrap_s), wrap(sampler.wrap_t)],
+        nearest: sampler.mag_filter == Some(Checked::Valid(MagFilter::Nearest)),
     }
+}
+
+/// The alpha below which a cut-out has a hole, once its factor is taken into account.
+fn cutoff(material: &json::Material) -> Option<f64> {
+    let alpha = f64::from(material.pbr_metallic_roughness.base_color_factor.0[3]);
+    let cutoff = material.alpha_cutoff.map_or(0.5, |cutoff| f64::from(cutoff.0));
+    let is_masked = material.alpha_mode == Checked::Valid(AlphaMode::Mask);
+    (is_masked && alpha > 0.0 && cutoff > 0.0 && cutoff <= alpha).then(|| cutoff / alpha)
 }
 
 /// The set of coordinates and the transform (`KHR_texture_transform`) a texture is read with.

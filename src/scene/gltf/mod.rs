@@ -10,6 +10,7 @@ mod primitives;
 use std::path::Path;
 
 use self::file::{File, is_readable};
+pub(crate) use self::materials::sampler_of;
 use super::notes::{listed, note_count};
 use super::texture::UvMapping;
 use super::{Material, Scene};

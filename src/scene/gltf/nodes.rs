@@ -7,27 +7,34 @@ use glam::{DMat4, DQuat, DVec3, Mat4, Quat, Vec3};
 use super::Import;
 use super::primitives::Placement;
 use crate::error::Result;
+use crate::scene::Node as SceneNode;
 
 impl Import<'_> {
     /// Visits every node of the chosen scene once, parents before children, in the file's order.
     pub(super) fn add_nodes(&mut self) -> Result<()> {
         let file = self.file;
         let mut visited = vec![false; file.root.nodes.len()];
-        let mut stack: Vec<(Index<Node>, DMat4)> =
-            self.roots()?.into_iter().rev().map(|index| (index, DMat4::IDENTITY)).collect();
-        while let Some((index, parent)) = stack.pop() {
+        let mut stack: Vec<(Index<Node>, DMat4, Option<u32>)> =
+            self.roots()?.into_iter().rev().map(|root| (root, DMat4::IDENTITY, None)).collect();
+        while let Some((index, above, parent)) = stack.pop() {
             let node = file.get(index, "node")?;
             if std::mem::replace(&mut visited[index.value()], true) {
                 let message = format!("node {index} has several parents or is its own descendant");
                 return Err(file.fail(message));
             }
-            let transform = parent * local(node);
+            let transform = above * local(node);
             if !transform.is_finite() {
                 return Err(file.fail(format!("node {index} has a transform that is not finite")));
             }
+            let number = self.scene.nodes.len() as u32;
+            self.scene.nodes.push(SceneNode {
+                name: node.name.clone().unwrap_or_default(),
+                parent,
+                ..SceneNode::default()
+            });
             self.add_node(index, node, transform)?;
             let children = node.children.as_deref().unwrap_or_default();
-            stack.extend(children.iter().rev().map(|&child| (child, transform)));
+            stack.extend(children.iter().rev().map(|&child| (child, transform, Some(number))));
         }
         Ok(())
     }
@@ -58,13 +65,22 @@ impl Import<'_> {
             let name = node.name.clone().or_else(|| mesh.name.clone());
             self.scene.objects.push(name.unwrap_or_else(|| format!("node {index}")));
             let object = self.scene.objects.len() as u32 - 1;
+            if let Some(own) = self.scene.nodes.last_mut() {
+                own.object = Some(object);
+            }
             for primitive in &mesh.primitives {
                 self.add_primitive(primitive, Placement { transform, object })?;
             }
         }
         if let Some(camera) = node.camera {
             let camera = self.file.get(camera, "camera")?;
+            let before = self.scene.cameras.len();
             self.add_camera(camera, node, transform);
+            if self.scene.cameras.len() > before
+                && let Some(own) = self.scene.nodes.last_mut()
+            {
+                own.camera = Some(before as u32);
+            }
         }
         let lights = node.extensions.as_ref().and_then(|all| all.khr_lights_punctual.as_ref());
         if let Some(light) = lights {

@@ -13,7 +13,7 @@ use crate::scene::notes::listed;
 use crate::scene::texture::{
     Picture, UvMapping, attach_pictures, decode, note_missing, without_picture,
 };
-use crate::scene::{Material, Scene};
+use crate::scene::{Material, Sampler, Scene, Wrap};
 
 /// What a face needs to know of its material.
 #[derive(Clone, Copy, Debug)]
@@ -173,7 +173,9 @@ fn read_picture(library_folder: &Path, file: &Path, map: &Map, scene: &mut Scene
     let bytes = fs::read(file).or_else(|error| fs::read(&beside).map_err(|_| error));
     scene.files.extend([file.to_owned(), beside]);
     let bytes = bytes.map_err(|error| error.to_string());
-    match bytes.and_then(|bytes| decode(&map.file, &bytes, [!map.clamp; 2])) {
+    let wrap = if map.clamp { Wrap::Clamp } else { Wrap::Repeat };
+    let sampler = Sampler { wrap: [wrap; 2], nearest: false };
+    match bytes.and_then(|bytes| decode(&map.file, &bytes, sampler)) {
         Ok(texture) => {
             scene.textures.push(texture);
             Some(scene.textures.len() as u32 - 1)
