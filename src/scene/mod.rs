@@ -30,8 +30,6 @@ mod weld;
 use glam::{DVec2, DVec3, Vec3};
 use smallvec::SmallVec;
 
-use crate::colour::Rgb;
-
 pub use adding::{Amount, AreaLight};
 pub use camera::Camera;
 pub(crate) use light::SUN_RADIUS;
@@ -76,8 +74,8 @@ pub struct Face {
     pub normals: SmallVec<[Vec3; 4]>,
     /// Texture coordinates, origin at the picture's top left as in glTF; empty without texture.
     pub uvs: SmallVec<[DVec2; 4]>,
-    /// Factor on the material's reflectance: the mean of the face's vertex colours, else 1.
-    pub tint: Rgb,
+    /// Factors on the material's reflectance, 0..=1 per channel, linear between the corners; empty for 1.
+    pub tints: SmallVec<[Vec3; 4]>,
     /// Index into [`Scene::materials`].
     pub material: u32,
     /// Index into [`Scene::objects`].
@@ -94,7 +92,7 @@ impl Face {
 impl Default for Face {
     fn default() -> Self {
         let (vertices, normals, uvs) = (SmallVec::new(), SmallVec::new(), SmallVec::new());
-        Self { vertices, normals, uvs, tint: Rgb::ONE, material: 0, object: 0 }
+        Self { vertices, normals, uvs, tints: SmallVec::new(), material: 0, object: 0 }
     }
 }
 

@@ -80,7 +80,7 @@ fn sparse_values_replace_their_base() {
 }
 
 #[test]
-fn vertex_colours_of_every_encoding_tint_faces_by_their_mean() {
+fn vertex_colours_of_every_encoding_tint_corners() {
     let full = f32::from(51u8) / 255.0;
     let encodings = [
         (FLOAT, "VEC3", false, floats(&[full; 9])),
@@ -91,9 +91,21 @@ fn vertex_colours_of_every_encoding_tint_faces_by_their_mean() {
     ];
     for (component, type_, normalized, data) in encodings {
         let asset = Asset::triangle().attribute("COLOR_0", &data, component, type_);
-        let tint = asset.set("/accessors/1/normalized", json!(normalized)).load().faces[0].tint;
-        assert!((tint - DVec3::splat(0.2)).length() < 1e-7, "{component} {type_}: {tint}");
+        let scene = asset.set("/accessors/1/normalized", json!(normalized)).load();
+        let tints = &scene.faces[0].tints;
+        let right = |tint: &Vec3| (tint - Vec3::splat(0.2)).length() < 1e-6;
+        assert!(tints.len() == 3 && tints.iter().all(right), "{component} {type_}: {tints:?}");
+        assert!(scene.notes.is_empty(), "{:?}", scene.notes);
     }
+}
+
+#[test]
+fn transparent_vertex_colours_are_told_where_they_count() {
+    let clear = floats(&[1., 1., 1., 0.5, 1., 1., 1., 1., 1., 1., 1., 1.]);
+    let asset = || Asset::triangle().attribute("COLOR_0", &clear, FLOAT, "VEC4");
+    let told = |scene: Scene| scene.notes.iter().any(|note| note.contains("vertex colours"));
+    assert!(!told(asset().load()));
+    assert!(told(asset().set("/materials/0/alphaMode", json!("BLEND")).load()));
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod asset;
 mod changed;
+mod colours;
 mod emission;
 mod folder;
 mod found;

@@ -49,6 +49,8 @@ struct Skipped {
     cameras: usize,
     skins: usize,
     morphs: usize,
+    /// Primitives whose vertices say that light comes through.
+    alphas: usize,
 }
 
 impl Import<'_> {
@@ -77,6 +79,12 @@ impl Import<'_> {
         note_count(notes, skipped.loose, "primitive", "of points or lines ignored");
         note_count(notes, skipped.cameras, "camera", "ignored: only perspective ones are read");
         note_count(notes, skipped.skins, "skinned mesh node", "taken in rest pose");
+        note_count(
+            notes,
+            skipped.alphas,
+            "primitive",
+            "with transparent vertex colours taken as opaque",
+        );
         note_count(notes, skipped.morphs, "morphed primitive", "taken in rest pose");
     }
 }

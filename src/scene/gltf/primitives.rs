@@ -1,5 +1,7 @@
 //! Triangles of a mesh, placed in the world.
 
+use ::gltf::json::accessor::Type;
+use ::gltf::json::material::AlphaMode;
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Index, accessor::Accessor};
@@ -9,7 +11,6 @@ use smallvec::SmallVec;
 use super::Import;
 use super::accessors::Purpose;
 use super::file::File;
-use crate::colour::Rgb;
 use crate::error::Result;
 use crate::scene::Face;
 use crate::scene::load::tamed;
@@ -28,7 +29,7 @@ struct Vertices {
     positions: Vec<DVec3>,
     normals: Vec<Vec3>,
     uvs: Vec<DVec2>,
-    colours: Vec<Rgb>,
+    colours: Vec<Vec3>,
 }
 
 impl Import<'_> {
@@ -105,8 +106,24 @@ impl Import<'_> {
         }
     }
 
-    fn vertices(
+    /// Whether the colours of a primitive's vertices say that light comes through, and are meant to.
+    fn lets_through(
         &self,
+        primitive: &Primitive,
+        colours: Option<Index<Accessor>>,
+    ) -> Result<bool> {
+        let material = primitive.material.and_then(|index| self.file.root.get(index));
+        let (Some(material), Some(colours)) = (material, colours) else { return Ok(false) };
+        let has_alpha = self.file.get(colours, "accessor")?.type_ == Checked::Valid(Type::Vec4);
+        if material.alpha_mode == Checked::Valid(AlphaMode::Opaque) || !has_alpha {
+            return Ok(false);
+        }
+        let colours = self.file.floats(colours, Purpose::Colour)?;
+        Ok(colours.iter().any(|&[_, _, _, alpha]| alpha < 1.0))
+    }
+
+    fn vertices(
+        &mut self,
         primitive: &Primitive,
         material: u32,
         placement: Placement,
@@ -130,12 +147,17 @@ impl Import<'_> {
             Purpose::TexCoord,
             expected,
         )?;
-        let colours = list(self.file, attribute(Semantic::Colors(0)), Purpose::Colour, expected)?;
+        let colours = attribute(Semantic::Colors(0));
+        self.skipped.alphas += usize::from(self.lets_through(primitive, colours)?);
+        let colours = list(self.file, colours, Purpose::Colour, expected)?;
         Ok(Vertices {
             positions: points.into_iter().map(|p| transform.transform_point3(p.into())).collect(),
             normals: normals.into_iter().map(place).collect(),
             uvs: uvs.into_iter().map(|uv: [f64; 2]| mapping.apply(uv.into())).collect(),
-            colours: colours.into_iter().map(|c: [f64; 3]| tamed(c.into(), 1.0)).collect(),
+            colours: colours
+                .into_iter()
+                .map(|c: [f64; 3]| tamed(c.into(), 1.0).as_vec3())
+                .collect(),
         })
     }
 }
@@ -160,15 +182,11 @@ fn list<const N: usize>(
 impl Vertices {
     fn face(&self, triangle: [u32; 3], base: u32) -> Face {
         let corners = triangle.map(|corner| corner as usize);
-        let tint = match self.colours.is_empty() {
-            true => Rgb::ONE,
-            false => corners.iter().map(|&corner| self.colours[corner]).sum::<Rgb>() / 3.0,
-        };
         Face {
             vertices: triangle.iter().map(|corner| base + corner).collect(),
             normals: picked(&self.normals, corners),
             uvs: picked(&self.uvs, corners),
-            tint,
+            tints: picked(&self.colours, corners),
             ..Face::default()
         }
     }

@@ -17,7 +17,6 @@ use self::library::{Library, Use};
 use self::scan::{FaceLine, Scan};
 use super::notes::note_count;
 use super::{Face, LoadOptions, Scene};
-use crate::colour::Rgb;
 use crate::error::{Error, Result};
 
 /// Reads the OBJ file at `path` and its material libraries; `options` have its unit and what is up in it.
@@ -98,7 +97,6 @@ impl Corners {
     fn face(&self, range: Range<usize>, line: &FaceLine, used: &Use) -> Option<Face> {
         let mut face = Face {
             vertices: self.vertices.get(range.clone())?.into(),
-            tint: Rgb::ONE,
             material: used.material,
             object: line.object,
             ..Face::default()
