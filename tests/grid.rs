@@ -130,7 +130,7 @@ fn a_lamp_under_a_ceiling_brings_its_flux_however_near_it_is() {
         // Off the lines between patches, and on one.
         for x in [1.83, 2.0] {
             let position = DVec3::new(x, 3.0 - gap, 2.0);
-            let (lux, emitted) = by_lamp(Light::Point { position, intensity: even, range: None });
+            let (lux, emitted) = by_lamp(Light::Point { position, intensity: even });
             assert!((emitted / power - 1.0).abs() < 0.01, "{emitted} W of {power}, {gap} m");
             // By a path tracer 44.3 ± 0.03 in the middle, wherever it is below the ceiling.
             assert!((lux / 44.3 - 1.0).abs() < 0.03, "{lux} lx, {gap} m");

@@ -110,8 +110,7 @@ impl Compare {
         let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.talk);
         meter.begin("reading");
-        let scene = self.scene.load_lit()?;
-        scene.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
+        let scene = self.scene.load_lit(|line| meter.tell(line))?;
         let comparison = compare::compare(&scene, &plan, &mut |progress| {
             meter.advance(&progress.phase, progress.done);
             interrupt.flow()

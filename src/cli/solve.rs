@@ -208,12 +208,9 @@ impl Solve {
         meter.begin("reading");
         let memory = self.limits.memory();
         memory.check_file(self.scene.bytes())?;
-        let scene = self.scene.load_lit()?;
+        let scene = self.scene.load_lit(|line| meter.tell(line))?;
         memory.check_needs(&self.needs(&scene), "for the scene's faces")?;
         let camera = self.picture.choose_camera(&scene.cameras)?;
-        for note in &scene.notes {
-            meter.tell(&format!("note: {note}"));
-        }
         Ok((scene, camera))
     }
 

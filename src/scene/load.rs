@@ -6,9 +6,10 @@ use std::path::Path;
 use super::notes::{counted, listed};
 use super::texture::mean;
 use super::{
-    LoadOptions, MAX_REFLECTANCE, Scene, Texture, Up, gltf, obj, repair, settle_sides, up,
+    EmissionUnit, LoadOptions, MAX_REFLECTANCE, Scene, Texture, Up, gltf, obj, repair,
+    settle_sides, up,
 };
-use crate::colour::Rgb;
+use crate::colour::{LUMENS_PER_WATT, Rgb};
 use crate::error::{Error, Result};
 
 /// Coordinates beyond this are taken for a wrong unit or a broken file, m.
@@ -23,6 +24,9 @@ pub(crate) const MAX_RADIANCE: f64 = 1e12;
 /// When the file cannot be read or is not what its ending says; the message names the place.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene> {
     let mut scene = read(path, options)?;
+    if options.emission == EmissionUnit::Nits {
+        scene.materials.iter_mut().for_each(|material| material.emission /= LUMENS_PER_WATT);
+    }
     refuse_huge_coordinates(path, &scene)?;
     repair::clean(&mut scene);
     limit_materials(&mut scene);
@@ -74,7 +78,7 @@ fn read(path: &Path, options: &LoadOptions) -> Result<Scene> {
             let message = "glTF files have Y up by definition; only OBJ files may have Z up";
             Err(Error::Setting { name: "up", message: message.to_owned() })
         }
-        "gltf" | "glb" => gltf::read(path),
+        "gltf" | "glb" => gltf::read(path, options),
         _ => Err(Error::UnknownFormat { path: path.to_owned(), known: ".obj, .gltf, .glb" }),
     }
 }

@@ -4,6 +4,7 @@
 //! linear, emission is radiance, lights are in watts, texture coordinates have their transforms applied.
 
 mod adding;
+mod backdrop;
 pub(crate) mod boxes;
 mod camera;
 mod corners;
@@ -103,13 +104,26 @@ pub struct LoadOptions {
     pub metres_per_unit: f64,
     /// Which axis of an OBJ file is up, default Y (it is in glTF by definition).
     pub up: Up,
+    /// What the numbers of emission are, default radiance.
+    pub emission: EmissionUnit,
     /// Which sides of faces reflect and emit.
     pub two_sided: Sides,
 }
 
+/// The unit in which a file gives what its materials emit, be it `Ke` or glTF emission.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum EmissionUnit {
+    /// Radiance, W/(m² sr), as most exporters write.
+    #[default]
+    Radiance,
+    /// Luminance, cd/m², as the text of glTF wants; 683 lm/W.
+    Nits,
+}
+
 impl Default for LoadOptions {
     fn default() -> Self {
-        Self { metres_per_unit: 1.0, up: Up::Y, two_sided: Sides::Auto }
+        let emission = EmissionUnit::Radiance;
+        Self { metres_per_unit: 1.0, up: Up::Y, emission, two_sided: Sides::Auto }
     }
 }
 

@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_1_SQRT_2;
 use std::f64::consts::FRAC_PI_2;
 
 use glam::{DVec2, DVec3, Vec3};
-use radiosity::scene::{Light, Scene};
+use radiosity::scene::{EmissionUnit, Light, LoadOptions, Scene, load};
 use serde_json::{Value, json};
 
 use crate::asset::{Asset, FLOAT, floats};
@@ -217,8 +217,7 @@ fn lights_come_in_watts_and_follow_their_nodes() {
         .set("/nodes", json!([{"mesh": 0}, node(0), node(1), node(2)]))
         .load();
     let at = DVec3::new(1.0, 2.0, 3.0);
-    let point =
-        Light::Point { position: at, intensity: DVec3::new(1.0, 0.5, 0.0), range: Some(4.0) };
+    let point = Light::Point { position: at, intensity: DVec3::new(1.0, 0.5, 0.0) };
     assert_eq!(scene.lights[0].light, point);
     let Light::Spot { direction, intensity, inner_angle, outer_angle, .. } = scene.lights[1].light
     else {
@@ -230,6 +229,28 @@ fn lights_come_in_watts_and_follow_their_nodes() {
     let Light::Directional { irradiance, .. } = scene.lights[2].light else { panic!() };
     assert_eq!(irradiance, DVec3::splat(100.0));
     assert!(scene.is_lit());
+}
+
+#[test]
+fn ranges_and_units_of_lights_are_told_where_they_matter() {
+    let lit = |range: f64, emission: f64| {
+        let lights = json!([{"type": "point", "intensity": 683, "name": "bulb", "range": range}]);
+        let node = json!({"extensions": {"KHR_lights_punctual": {"light": 0}}});
+        Asset::triangle()
+            .set("/extensions", json!({"KHR_lights_punctual": {"lights": lights}}))
+            .set("/nodes", json!([{"mesh": 0}, node]))
+            .set("/materials/0/emissiveFactor", json!([emission, emission, emission]))
+    };
+    let told = |scene: Scene, words: &str| scene.notes.iter().any(|note| note.contains(words));
+    assert!(told(lit(1.2, 0.0).load(), "range of \"bulb\""));
+    assert!(!told(lit(1.5, 0.0).load(), "range"));
+    assert!(told(lit(9.0, 0.5).load(), "--emission nits"));
+    assert!(!told(lit(9.0, 0.0).load(), "--emission nits"));
+    let options = LoadOptions { emission: EmissionUnit::Nits, ..LoadOptions::default() };
+    let folder = Folder::new().with("a.gltf", lit(9.0, 0.683).text());
+    let scene = load(&folder.path("a.gltf"), &options).unwrap();
+    assert!((scene.materials[0].emission.x - 1e-3).abs() < 1e-9, "{:?}", scene.materials[0]);
+    assert!(!told(scene, "--emission nits"));
 }
 
 #[test]

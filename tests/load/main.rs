@@ -10,6 +10,7 @@ mod gltf;
 mod ies;
 mod mutated;
 mod obj;
+mod pose;
 mod refused;
 mod sides;
 mod up;

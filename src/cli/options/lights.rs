@@ -138,7 +138,7 @@ fn point_light(text: &str) -> Result<Light, String> {
         _ => (amount, 1.0),
     };
     let intensity = positive(amount.trim_end()).ok_or(WANTED)? * unit;
-    Ok(Light::Point { position: vector(position)?, intensity: Rgb::splat(intensity), range: None })
+    Ok(Light::Point { position: vector(position)?, intensity: Rgb::splat(intensity) })
 }
 
 /// `lamp.ies@1,2,3,90`.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use radiosity::scene::{LoadOptions, Sides, Up, settle_sides};
+use radiosity::scene::{EmissionUnit, LoadOptions, Sides, Up, settle_sides};
 use radiosity::{Error, Result, Scene, load};
 
 use super::lights::{HINT, LightOptions};
@@ -30,6 +30,13 @@ pub(crate) struct SceneOptions {
     #[arg(long, value_name = "AXIS", value_enum, default_value_t = Axis::Y, help_heading = "Reading")]
     up: Axis,
 
+    /// What the file's emission is: radiance in W/(m² sr), or cd/m² (nits), which are divided by 683
+    ///
+    /// Of `Ke` and of glTF emission. The text of glTF says cd/m², Blender writes W/(m² sr).
+    #[arg(long, value_name = "UNIT", value_enum, default_value_t = Emission::Radiance)]
+    #[arg(help_heading = "Reading")]
+    emission: Emission,
+
     /// Which sides of surfaces reflect and emit
     ///
     /// The file says so (glTF `doubleSided`; OBJ: front sides only, with black backs), unless lamps, or
@@ -51,6 +58,14 @@ enum Axis {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
+enum Emission {
+    /// W/(m² sr)
+    Radiance,
+    /// cd/m²
+    Nits,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
 enum TwoSided {
     /// What the file says, unless it would leave rooms black
     Auto,
@@ -68,22 +83,32 @@ impl SceneOptions {
         std::fs::metadata(&self.path).map_or(0, |about| about.len())
     }
 
-    /// The scene, with what is added to it.
-    pub(crate) fn load(&self) -> Result<Scene> {
+    /// The scene, with what is added to it. Its notes are told, above all where something could not be added.
+    pub(crate) fn load(&self, tell: impl Fn(&str)) -> Result<Scene> {
+        let (scene, added) = self.read()?;
+        scene.notes.iter().for_each(|note| tell(&format!("note: {note}")));
+        added.map(|()| scene)
+    }
+
+    /// The scene, and whether all could be added to it.
+    pub(crate) fn read(&self) -> Result<(Scene, Result<()>)> {
         let options = self.load_options();
         let mut scene = load(&self.path, &options)?;
         let was_dark = !scene.is_lit();
-        self.lights.apply(&mut scene)?;
+        if let Err(error) = self.lights.apply(&mut scene) {
+            return Ok((scene, Err(error)));
+        }
         // Only light tells whether a room was modelled inside out; lamps that are added face as they are told.
         if was_dark && options.two_sided == Sides::Auto && !self.lights.adds_faces() {
             settle_sides(&mut scene, Sides::Auto);
         }
-        Ok(scene)
+        scene.note_backdrop();
+        Ok((scene, Ok(())))
     }
 
     /// The same, if there is light in it.
-    pub(crate) fn load_lit(&self) -> Result<Scene> {
-        let scene = self.load()?;
+    pub(crate) fn load_lit(&self, tell: impl Fn(&str)) -> Result<Scene> {
+        let scene = self.load(tell)?;
         if scene.is_lit() {
             return Ok(scene);
         }
@@ -104,6 +129,10 @@ impl SceneOptions {
             Axis::Y => Up::Y,
             Axis::Z => Up::Z,
         };
-        LoadOptions { metres_per_unit: self.units, up, two_sided }
+        let emission = match self.emission {
+            Emission::Radiance => EmissionUnit::Radiance,
+            Emission::Nits => EmissionUnit::Nits,
+        };
+        LoadOptions { metres_per_unit: self.units, up, emission, two_sided }
     }
 }

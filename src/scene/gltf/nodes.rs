@@ -9,9 +9,23 @@ use super::primitives::Placement;
 use crate::error::Result;
 
 impl Import<'_> {
-    /// Visits every node of the chosen scene once, parents before children, in the file's order.
+    /// Adds what stands at the nodes of the chosen scene, parents before children, in the file's order.
     pub(super) fn add_nodes(&mut self) -> Result<()> {
+        let placed = self.placed()?;
+        let mut transforms = vec![None; self.file.root.nodes.len()];
+        for (index, transform) in &placed {
+            transforms[index.value()] = Some(*transform);
+        }
+        for (index, transform) in placed {
+            self.add_node(index, transform, &transforms)?;
+        }
+        Ok(())
+    }
+
+    /// Every node of the chosen scene, once, and its transform to the world.
+    fn placed(&self) -> Result<Vec<(Index<Node>, DMat4)>> {
         let file = self.file;
+        let mut placed = Vec::new();
         let mut visited = vec![false; file.root.nodes.len()];
         let mut stack: Vec<(Index<Node>, DMat4)> =
             self.roots()?.into_iter().rev().map(|index| (index, DMat4::IDENTITY)).collect();
@@ -25,11 +39,11 @@ impl Import<'_> {
             if !transform.is_finite() {
                 return Err(file.fail(format!("node {index} has a transform that is not finite")));
             }
-            self.add_node(index, node, transform)?;
+            placed.push((index, transform));
             let children = node.children.as_deref().unwrap_or_default();
             stack.extend(children.iter().rev().map(|&child| (child, transform)));
         }
-        Ok(())
+        Ok(placed)
     }
 
     /// Roots of the default scene, else of the first, else all nodes that are no one's child.
@@ -51,15 +65,25 @@ impl Import<'_> {
         Ok(free.map(|node| Index::new(node as u32)).collect())
     }
 
-    fn add_node(&mut self, index: Index<Node>, node: &Node, transform: DMat4) -> Result<()> {
+    fn add_node(
+        &mut self,
+        index: Index<Node>,
+        transform: DMat4,
+        transforms: &[Option<DMat4>],
+    ) -> Result<()> {
+        let node = self.file.get(index, "node")?;
         if let Some(mesh) = node.mesh {
-            self.skipped.skins += usize::from(node.skin.is_some());
             let mesh = self.file.get(mesh, "mesh")?;
             let name = node.name.clone().or_else(|| mesh.name.clone());
             self.scene.objects.push(name.unwrap_or_else(|| format!("node {index}")));
             let object = self.scene.objects.len() as u32 - 1;
+            let joints = node.skin.map(|skin| self.file.joints(skin, transforms)).transpose()?;
+            let joints = joints.as_deref();
+            let weights = node.weights.as_ref().or(mesh.weights.as_ref());
+            let weights = weights.map_or(&[][..], Vec::as_slice);
             for primitive in &mesh.primitives {
-                self.add_primitive(primitive, Placement { transform, object })?;
+                let placement = Placement { transform, joints, weights, object };
+                self.add_primitive(primitive, placement)?;
             }
         }
         if let Some(camera) = node.camera {
