@@ -46,7 +46,7 @@ pub(crate) fn encoded(texture: &Texture) -> io::Result<Cow<'_, [u8]>> {
         return Ok(Cow::Borrowed(&texture.encoded));
     }
     let code = |value: f32| (srgb_from_linear(f64::from(value)) * 255.0).round() as u8;
-    let bytes: Vec<u8> = texture.texels.iter().flatten().map(|&value| code(value)).collect();
+    let bytes: Vec<u8> = texture.texels.iter().flatten().map(code).collect();
     let picture = ImageBuffer::<Rgb<u8>, _>::from_raw(texture.width, texture.height, bytes)
         .ok_or_else(|| io::Error::other(format!("picture {}: texels are missing", texture.name)))?;
     let mut png = Cursor::new(Vec::new());

@@ -23,10 +23,7 @@ fn texel(texture: &Texture, column: f64, row: f64) -> Rgb {
     let column = wrapped(column, texture.width, texture.repeat[0]);
     let row = wrapped(row, texture.height, texture.repeat[1]);
     let index = row * texture.width as usize + column;
-    texture
-        .texels
-        .get(index)
-        .map_or(Rgb::ONE, |&[r, g, b]| DVec3::new(r.into(), g.into(), b.into()))
+    texture.texels.get(index).map_or(Rgb::ONE, |[r, g, b]| DVec3::new(r.into(), g.into(), b.into()))
 }
 
 fn wrapped(index: f64, count: u32, repeat: bool) -> usize {
@@ -43,7 +40,7 @@ mod tests {
         Texture {
             width: 2,
             height: 1,
-            texels: vec![[0.0; 3], [1.0; 3]],
+            texels: vec![[0.0; 3], [1.0; 3]].into(),
             repeat: [repeat; 2],
             ..Texture::default()
         }

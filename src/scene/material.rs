@@ -1,7 +1,10 @@
 //! Diffuse reflectance, emission and the pictures they are taken from.
 
+use std::sync::Arc;
+
 use glam::{DVec2, Vec3};
 
+use super::Texels;
 use crate::colour::Rgb;
 
 /// Largest reflectance a scene may hold in a channel: at 1, light in a closed room would never die out.
@@ -46,10 +49,10 @@ pub struct Texture {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Linear RGB, row by row from the top, `width * height` texels.
-    pub texels: Vec<[f32; 3]>,
-    /// The encoded picture as read, PNG or JPEG, written out again on export.
-    pub encoded: Vec<u8>,
+    /// `width * height` texels.
+    pub texels: Texels,
+    /// The encoded picture as read, PNG or JPEG, written out again on export; empty if it was neither.
+    pub encoded: Arc<[u8]>,
     /// `image/png` or `image/jpeg`.
     pub mime_type: String,
     /// Whether coordinates outside 0..=1 repeat the picture (else they take its border), along u and v.
@@ -66,6 +69,6 @@ impl Texture {
         let column = index(uv.x, self.width, self.repeat[0]);
         let row = index(uv.y, self.height, self.repeat[1]);
         let texel = self.texels.get(row * self.width as usize + column);
-        texel.map_or(Rgb::ZERO, |&texel| Vec3::from(texel).as_dvec3())
+        texel.map_or(Rgb::ZERO, |texel| Vec3::from(texel).as_dvec3())
     }
 }

@@ -15,15 +15,20 @@ mod junctions;
 mod light;
 mod load;
 mod material;
+mod named;
 mod names;
 mod notes;
 mod obj;
 mod overrides;
 mod photometry;
+mod ply;
 mod polygon;
 mod repair;
 mod sides;
 mod sight;
+mod stl;
+mod texels;
+mod text;
 mod texture;
 mod up;
 mod weld;
@@ -42,6 +47,7 @@ pub(crate) use notes::note_count;
 pub use photometry::Photometry;
 pub(crate) use polygon::area_vector;
 pub use sides::{Sides, settle_sides};
+pub use texels::Texels;
 pub(crate) use texture::decode;
 pub use up::Up;
 
@@ -100,9 +106,9 @@ impl Default for Face {
 /// How to read a file that leaves something open.
 #[derive(Clone, Debug)]
 pub struct LoadOptions {
-    /// Metres per unit of an OBJ file (glTF is in metres by definition), default 1.
+    /// Metres per unit of the file's coordinates, default 1.
     pub metres_per_unit: f64,
-    /// Which axis of an OBJ file is up, default Y (it is in glTF by definition).
+    /// Which axis of the file is up, default Y.
     pub up: Up,
     /// What the numbers of emission are, default radiance.
     pub emission: EmissionUnit,
@@ -140,6 +146,13 @@ impl Scene {
     /// Diagonal of [`Self::bounds`], m; 0 without faces.
     pub fn extent(&self) -> f64 {
         self.bounds().map_or(0.0, |(low, high)| low.distance(high))
+    }
+
+    /// A texture of the same picture as one that there is, repeated otherwise.
+    fn add_texture_like(&mut self, known: u32, repeat: [bool; 2]) -> u32 {
+        let texture = Texture { repeat, ..self.textures[known as usize].clone() };
+        self.textures.push(texture);
+        self.textures.len() as u32 - 1
     }
 
     /// Drops the faces of some materials; tells how many.

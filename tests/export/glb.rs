@@ -135,8 +135,8 @@ fn glb_keeps_pictures_and_how_they_repeat() {
     let (back, _) = round_trip(&mesh, &Stamp::default()).unwrap();
     let [texture] = &back.textures[..] else { panic!("{} textures", back.textures.len()) };
     assert_eq!((texture.width, texture.height, texture.repeat), (2, 1, [true, false]));
-    for (texel, expected) in texture.texels.iter().zip(&mesh.textures[0].texels) {
-        assert!((Vec3::from(*texel) - Vec3::from(*expected)).length() < 0.005);
+    for (texel, expected) in texture.texels.iter().zip(mesh.textures[0].texels.iter()) {
+        assert!((Vec3::from(texel) - Vec3::from(expected)).length() < 0.005);
     }
 }
 

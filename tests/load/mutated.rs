@@ -142,7 +142,7 @@ fn assert_sound(scene: &Scene) {
     }
     for texture in &scene.textures {
         assert_eq!(texture.texels.len(), texture.width as usize * texture.height as usize);
-        assert!(texture.texels.iter().flatten().all(|x| x.is_finite() && *x >= 0.0));
+        assert!(texture.texels.iter().flatten().all(|x| x.is_finite() && x >= 0.0));
     }
     scene.lights.iter().for_each(|named| assert_sound_light(&named.light));
     for camera in &scene.cameras {

@@ -169,7 +169,7 @@ fn textures_are_counted_from_the_top_after_their_options() {
     let expected = [[0.5, 0.75], [2.5, 0.75], [2.5, -3.25], [0.5, -3.25]].map(DVec2::from);
     assert_eq!(scene.faces[0].uvs[..], expected);
     assert_eq!(scene.textures[0].repeat, [false; 2]);
-    assert_eq!(scene.textures[0].texels, [[1.0, 0.0, 0.0]]);
+    assert_eq!(scene.textures[0].texels.iter().collect::<Vec<_>>(), [[1.0, 0.0, 0.0]]);
     assert_eq!(scene.materials[0].reflectance, DVec3::splat(0.99));
 }
 

@@ -187,7 +187,7 @@ fn a_texture_replaces_its_mean() {
     mesh.textures.push(Texture {
         width: 2,
         height: 1,
-        texels: vec![[0.0; 3], [1.0; 3]],
+        texels: vec![[0.0; 3], [1.0; 3]].into(),
         repeat: [false; 2],
         ..Texture::default()
     });

@@ -12,21 +12,21 @@ use super::values;
 /// The scene and what its file leaves open.
 #[derive(Debug, Args)]
 pub(crate) struct SceneOptions {
-    /// The scene: .obj (with its .mtl), .gltf or .glb
+    /// The scene: .obj (with its .mtl), .gltf, .glb, .stl or .ply
     #[arg(value_name = "SCENE")]
     pub(crate) path: PathBuf,
 
-    /// Unit of an OBJ file's coordinates: m, cm, mm, in, ft, or metres per unit
+    /// Unit of the file's coordinates: m, cm, mm, in, ft, or metres per unit
     ///
-    /// glTF is in metres always. `radiosity info` prints the size in metres, which shows a wrong guess.
+    /// glTF is in metres by definition; not all exporters know. `radiosity info` prints the size in metres, which shows a wrong guess.
     #[arg(long, value_name = "UNIT", default_value = "m", value_parser = values::units)]
     #[arg(help_heading = "Reading")]
     units: f64,
 
-    /// Which axis of an OBJ file points up
+    /// Which axis of the file points up
     ///
     /// With `z`, x,y,z of the file become x,z,-y when it is read: its +Y is -Z then, which is north for --sun. Lamps,
-    /// cameras and grids are given in the coordinates after that, with Y up. glTF has Y up always.
+    /// cameras and grids are given in the coordinates after that, with Y up. glTF has Y up by definition.
     #[arg(long, value_name = "AXIS", value_enum, default_value_t = Axis::Y, help_heading = "Reading")]
     up: Axis,
 

@@ -15,7 +15,7 @@ use crate::scene::notes::{listed, note_count};
 use crate::scene::texture::{
     Picture, UvMapping, attach_pictures, decode, note_missing, without_picture,
 };
-use crate::scene::{Material, Scene};
+use crate::scene::{Material, Scene, Texture};
 
 /// What materials say that does not go into the scene's.
 #[derive(Default)]
@@ -28,8 +28,14 @@ pub(super) struct Known {
 
 /// Reads all materials into `scene`.
 pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Known> {
-    let mut reader =
-        Reader { file, scene, pictures: HashMap::new(), mirrored: 0, pictureless: Vec::new() };
+    let mut reader = Reader {
+        file,
+        scene,
+        pictures: HashMap::new(),
+        decoded: HashMap::new(),
+        mirrored: 0,
+        pictureless: Vec::new(),
+    };
     let mut known = Known::default();
     let (mut metals, mut clear, mut dim) = (Vec::new(), Vec::new(), Vec::new());
     for (index, from) in file.root.materials.iter().enumerate() {
@@ -100,6 +106,8 @@ struct Reader<'a> {
     scene: &'a mut Scene,
     /// Index into the scene's textures by glTF image and wrapping; `None` for unreadable ones.
     pictures: HashMap<(usize, [bool; 2]), Option<u32>>,
+    /// The first of the textures made of a glTF image.
+    decoded: HashMap<usize, u32>,
     mirrored: usize,
     /// Names of the materials whose picture is missing and who say nothing else.
     pictureless: Vec<String>,
@@ -168,14 +176,19 @@ impl Reader<'_> {
 
     /// Reads a picture into the scene; an unreadable one costs a note, not the scene.
     fn decoded(&mut self, index: Index<json::Image>, repeat: [bool; 2]) -> Option<u32> {
+        if let Some(&known) = self.decoded.get(&index.value()) {
+            return Some(self.scene.add_texture_like(known, repeat));
+        }
         let image = self.file.root.get(index)?;
         let uri = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
         let name = image.name.as_deref().or(uri);
         let name = name.map_or_else(|| format!("image {index}"), str::to_owned);
-        match self.encoded(image).and_then(|bytes| decode(&name, &bytes, repeat)) {
+        match self.encoded(image).and_then(|bytes| decode(uri.unwrap_or(&name), &bytes, repeat)) {
             Ok(picture) => {
-                self.scene.textures.push(picture);
-                Some(self.scene.textures.len() as u32 - 1)
+                self.scene.textures.push(Texture { name, ..picture });
+                let texture = self.scene.textures.len() as u32 - 1;
+                self.decoded.insert(index.value(), texture);
+                Some(texture)
             }
             Err(why) => {
                 self.scene.notes.push(format!("picture \"{name}\" left out: {why}"));
@@ -184,10 +197,10 @@ impl Reader<'_> {
         }
     }
 
-    fn encoded(&self, image: &json::Image) -> std::result::Result<Vec<u8>, String> {
+    fn encoded(&mut self, image: &json::Image) -> std::result::Result<Vec<u8>, String> {
         let bytes = match (&image.buffer_view, &image.uri) {
             (Some(view), _) => self.file.view(*view).map(|(bytes, _)| bytes.to_vec()),
-            (None, Some(uri)) => self.file.resource(uri),
+            (None, Some(uri)) => self.file.resource(uri, &mut self.scene.notes),
             (None, None) => return Err("it has neither data nor a file".to_owned()),
         };
         bytes.map_err(|error| error.to_string())

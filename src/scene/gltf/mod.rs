@@ -20,8 +20,8 @@ use crate::error::Result;
 
 /// Reads the glTF or GLB file at `path` with its buffers and pictures.
 pub(super) fn read(path: &Path, options: &LoadOptions) -> Result<Scene> {
-    let file = File::open(path)?;
     let mut scene = Scene::default();
+    let file = File::open(path, &mut scene.notes)?;
     let materials::Known { mappings, clear } = materials::read(&file, &mut scene)?;
     let mut import = Import {
         file: &file,

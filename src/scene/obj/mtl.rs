@@ -4,8 +4,8 @@ use std::path::Path;
 
 use glam::DVec2;
 
-use super::text::{keyword, lines, numbers};
 use crate::colour::Rgb;
+use crate::scene::text::{keyword, lines, name, numbers};
 
 /// What an MTL file says about a material.
 #[derive(Debug, Default)]
@@ -40,7 +40,7 @@ pub(super) fn parse(path: &Path, text: &str, notes: &mut Vec<String>) -> Vec<Mtl
     for (number, line) in lines(text) {
         let (word, rest) = keyword(&line);
         if word.eq_ignore_ascii_case("newmtl") {
-            materials.push(MtlMaterial { name: rest.to_owned(), ..MtlMaterial::default() });
+            materials.push(MtlMaterial { name: name(rest).to_owned(), ..MtlMaterial::default() });
             continue;
         }
         let Some(material) = materials.last_mut() else { continue };
@@ -77,7 +77,7 @@ fn set(material: &mut MtlMaterial, word: &str, rest: &str) -> Result<(), String>
 
 fn colour(rest: &str) -> Result<Rgb, String> {
     let (first, _) = keyword(rest);
-    if first == "spectral" || first == "xyz" {
+    if ["spectral", "xyz"].iter().any(|other| first.eq_ignore_ascii_case(other)) {
         return Err(format!("\"{first}\" colours are not read, only RGB"));
     }
     let values = numbers(rest).map_err(|word| format!("\"{word}\" is not a finite number"))?;
@@ -94,14 +94,14 @@ fn map(rest: &str) -> Result<Map, String> {
     let mut rest = rest;
     while let Some(option) = rest.strip_prefix('-') {
         let (name, values) = keyword(option);
-        rest = match name {
+        rest = match name.to_ascii_lowercase().as_str() {
             "s" => vector(values, &mut map.scale),
             "o" => vector(values, &mut map.offset),
             "t" => vector(values, &mut DVec2::default()),
             "mm" => keyword(keyword(values).1).1,
             "clamp" => {
                 let (state, after) = keyword(values);
-                map.clamp = state == "on";
+                map.clamp = state.eq_ignore_ascii_case("on");
                 after
             }
             "blendu" | "blendv" | "cc" | "texres" | "bm" | "boost" | "imfchan" | "type"
