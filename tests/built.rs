@@ -49,7 +49,7 @@ const UNSOUND: [Flaw; 14] = [
     (|scene| scene.faces[0].vertices.truncate(2), "face 0 has 2 corners"),
     (|scene| scene.faces[1].material = 2, "face 1 is of material 2, of 2"),
     (|scene| scene.faces[0].normals.push(Vec3::Y), "not as many normals"),
-    (|scene| scene.faces[0].tint.x = f64::NAN, "face 0 has a normal"),
+    (|scene| scene.faces[0].tints = [Vec3::NAN; 4].into_iter().collect(), "face 0 has a normal"),
     (|scene| scene.materials[0].texture = Some(3), "\"floor\" has a texture beyond the 0"),
     (|scene| scene.materials[0].reflectance.x = f64::NAN, "\"floor\" reflects"),
     (|scene| scene.materials[1].emission.z = -1.0, "\"lamp\" emits"),

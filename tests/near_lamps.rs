@@ -45,14 +45,14 @@ fn with_light(reflectance: f64, light: Light) -> Scene {
 }
 
 fn point(position: DVec3) -> Light {
-    Light::Point { position, intensity: Rgb::splat(POWER / (4.0 * PI)), range: None }
+    Light::Point { position, intensity: Rgb::splat(POWER / (4.0 * PI)) }
 }
 
 fn spot(position: DVec3, direction: DVec3) -> Light {
     let (inner_angle, outer_angle): (f64, f64) = (0.3, 0.5);
     let share = 1.0 - inner_angle.cos() + (inner_angle.cos() - outer_angle.cos()) / 3.0;
     let intensity = Rgb::splat(POWER / (2.0 * PI * share));
-    Light::Spot { position, direction, intensity, inner_angle, outer_angle, range: None }
+    Light::Spot { position, direction, intensity, inner_angle, outer_angle }
 }
 
 /// Mean illuminance 0.75 m over the floor, lx, and where the power went.

@@ -25,7 +25,7 @@ fn room(lamp: Rgb, spot: Rgb) -> Scene {
     scene.materials[glowing].name = "lamp".to_owned();
     for (number, x) in [0.6, 3.2].into_iter().enumerate() {
         let position = DVec3::new(x, 2.0, 4.0);
-        let light = Light::Point { position, intensity: spot, range: None };
+        let light = Light::Point { position, intensity: spot };
         scene.lights.push(NamedLight { name: format!("spot {number}"), light });
     }
     scene

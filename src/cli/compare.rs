@@ -120,9 +120,8 @@ impl Compare {
         let interrupt = Interrupt::listen().within(self.time.time_limit);
         let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
-        let scene = self.scene.load_lit()?;
+        let scene = self.scene.load_lit(|line| meter.tell(line))?;
         self.outputs().check(&scene.files, &[])?;
-        scene.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
         meter.begin("surfaces");
         let comparison = compare::compare(&scene, &plan, &mut |progress| {
             if progress.runs > 0 {

@@ -48,9 +48,7 @@ impl Estimate {
         let small = FACET * settings.patch_length(surfaces.extent);
         // Facets are lit as their neighbours are, and what lamps emit hides what arrives at them.
         let stays_whole = |surface: &radiosity::surface::Surface| {
-            surface.extent() <= small
-                || surface.is_emitter()
-                || surface.reflectance.max_element() <= 0.0
+            surface.extent() <= small || surface.is_emitter() || !surface.reflects()
         };
         let whole = surfaces.list.iter().zip(&counts).filter(|(surface, _)| stays_whole(surface));
         let whole: usize = whole.map(|(_, count)| count).sum();

@@ -110,8 +110,7 @@ impl FormFactors {
         let interrupt = Interrupt::listen().within(self.time.time_limit);
         let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
-        let scene = self.scene.load()?;
-        scene.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));
+        let scene = self.scene.load(|line| meter.tell(line))?;
         outputs.check(&scene.files, &[])?;
         let surfaces = patches_from(faces_of(&scene), &settings);
         settings.validate_for(surfaces.divided_area(), surfaces.extent)?;

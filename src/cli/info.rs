@@ -30,7 +30,11 @@ impl Info {
         let settings = self.accuracy.settings();
         settings.validate()?;
         self.report.talk.use_threads()?;
-        let scene = self.scene.load()?;
+        let (scene, added) = self.scene.read()?;
+        if added.is_err() {
+            scene.notes.iter().for_each(|note| console::tell(&format!("note: {note}")));
+        }
+        added?;
         let surfaces = surfaces_of(&scene);
         settings.validate_for(surfaces.divided_area(), surfaces.extent)?;
         let mesh = Mesh::new(&surfaces, &settings);

@@ -14,9 +14,6 @@ const PER_PATCH: u64 = 3_000;
 /// Bytes of an element with its vertices, triangles, and what is gathered at them; of rooms with up to 30 000.
 const PER_ELEMENT: u64 = 2_300;
 
-/// Copies of textures: of the scene, its surfaces and its mesh.
-const COPIES: u64 = 3;
-
 /// Bytes of a pixel of a picture that is drawn.
 const PER_PIXEL: u64 = 120;
 
@@ -36,7 +33,7 @@ pub(crate) struct Needs {
     pub(crate) pixels: u64,
     /// Of the lightmap.
     pub(crate) texels: u64,
-    /// Of the scene's textures.
+    /// Of the scene's textures, which surfaces and meshes share.
     pub(crate) texture_bytes: u64,
 }
 
@@ -46,8 +43,7 @@ impl Needs {
         // What a face has become by then is counted as a patch.
         let faces = (self.faces as u64 * PER_FACE).max(self.patches as u64 * PER_PATCH);
         let drawn = (self.pixels * PER_PIXEL).max(self.texels * PER_TEXEL);
-        let textures = self.texture_bytes * COPIES;
-        AT_LEAST + faces + textures + self.elements as u64 * PER_ELEMENT + drawn
+        AT_LEAST + faces + self.texture_bytes + self.elements as u64 * PER_ELEMENT + drawn
     }
 }
 

@@ -1,5 +1,6 @@
 //! `radiosity solve`: from a scene to a lit mesh and its picture.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -8,7 +9,7 @@ use radiosity::export::{self, Stamp};
 use radiosity::lightmap::Atlas;
 use radiosity::mesh::Direct;
 use radiosity::render::{self, Solved, Subject};
-use radiosity::scene::{Camera, Texture};
+use radiosity::scene::Camera;
 use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
 use radiosity::{Error, Scene, Settings, Solution, Surfaces, surfaces_of};
@@ -199,12 +200,16 @@ impl Solve {
 
     /// What takes memory before there are patches, and at the end.
     fn needs(&self, scene: &Scene) -> Needs {
-        let bytes = |texture: &Texture| size_of_val(texture.texels.as_slice());
+        // Textures may share texels.
+        let texels = scene.textures.iter().map(|texture| texture.texels.memory());
+        let texels: BTreeMap<usize, u64> = texels.collect();
+        let encoded = scene.textures.iter().map(|t| (t.encoded.as_ptr().addr(), t.encoded.len()));
+        let encoded: BTreeMap<usize, usize> = encoded.collect();
         Needs {
             faces: scene.faces.len(),
             pixels: if self.image.is_empty() { 0 } else { self.picture.pixels() },
             texels: self.lightmap.texels(),
-            texture_bytes: scene.textures.iter().map(bytes).sum::<usize>() as u64,
+            texture_bytes: texels.values().sum::<u64>() + encoded.values().sum::<usize>() as u64,
             ..Needs::default()
         }
     }
@@ -213,12 +218,9 @@ impl Solve {
         meter.begin("reading");
         let memory = self.limits.memory();
         memory.check_file(self.scene.bytes())?;
-        let scene = self.scene.load_lit()?;
+        let scene = self.scene.load_lit(|line| meter.tell(line))?;
         memory.check_needs(&self.needs(&scene), "for the scene's faces")?;
         let camera = self.picture.choose_camera(&scene.cameras)?;
-        for note in &scene.notes {
-            meter.tell(&format!("note: {note}"));
-        }
         self.outputs().check(&scene.files, &scene.textures)?;
         Ok((scene, camera))
     }

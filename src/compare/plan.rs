@@ -87,8 +87,8 @@ impl Plan {
         }
         let count = |size: f64| {
             let mesh = Mesh::new(surfaces, &self.uniform_settings(size));
-            let reflectance = |leaf| surfaces.list[mesh.surface_of(leaf)].reflectance;
-            mesh.leaves().filter(|&leaf| reflectance(leaf).max_element() > 0.0).count()
+            let reflects = |&leaf: &_| surfaces.list[mesh.surface_of(leaf)].reflects();
+            mesh.leaves().filter(reflects).count()
         };
         let (coarsest, goal) = (COARSEST.min(fewest), (FINEST * most).min(BEARABLE));
         // Elements are divided in quarters: halving the size is the least that makes a difference.

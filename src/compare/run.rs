@@ -147,9 +147,7 @@ impl Run {
         let peak_memory = peak.bytes();
         let score = score(reference, &mesh, surfaces.extent);
         let leaves = &solution.mesh;
-        let reflects = |leaf: ElementId| {
-            surfaces.list[leaves.surface_of(leaf)].reflectance.max_element() > 0.0
-        };
+        let reflects = |leaf: ElementId| surfaces.list[leaves.surface_of(leaf)].reflects();
         Ok(Some(Self {
             family,
             knob,

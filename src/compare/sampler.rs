@@ -64,7 +64,8 @@ impl<'a> Sampler<'a> {
     /// Diffuse reflectance at a place, its texel included.
     pub(super) fn reflectance(&self, site: &Site) -> Rgb {
         let surface = &self.surfaces.list[site.surface];
-        surface.reflectance * texel(self.surfaces, surface, site.place)
+        let reflectance = surface.reflectance_at(surface.plane.flatten(site.place));
+        reflectance * texel(self.surfaces, surface, site.place)
     }
 
     /// Sum over paths of the light that arrives by reflection, W/m² each; their first directions fill the

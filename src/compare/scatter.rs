@@ -70,7 +70,7 @@ pub(super) fn shadow_sites(sampler: &Sampler<'_>, count: usize, seed: u64) -> Ve
 /// The surfaces that reflect and do not outshine that, in triangles.
 fn tiles(surfaces: &Surfaces) -> Vec<Tile> {
     let shown = surfaces.list.iter().enumerate();
-    let shown = shown.filter(|(_, s)| s.reflectance.max_element() > 0.0 && !s.is_emitter());
+    let shown = shown.filter(|(_, s)| s.reflects() && !s.is_emitter());
     let cuts = Cuts { segments: &[], size: f64::INFINITY, tolerance: surfaces.tolerance };
     let fan = |(surface, ring): (usize, Vec<DVec2>)| {
         (1..ring.len() - 1)

@@ -73,7 +73,7 @@ pub(super) fn irradiance(
             let position = light.position()?;
             let (way, height) = (position - place, (position - place).dot(normal));
             let distance = way.length();
-            if height <= 0.0 || is_beyond(light, distance) {
+            if height <= 0.0 {
                 return None;
             }
             let irradiance = if distance < NEAR * radius {
@@ -138,16 +138,6 @@ pub(super) fn intensity(light: &Light, away: DVec3) -> Rgb {
     }
 }
 
-/// True if a file says that a light is not felt so far away, m.
-pub(super) fn is_beyond(light: &Light, distance: f64) -> bool {
-    match light {
-        Light::Point { range, .. } | Light::Spot { range, .. } => {
-            range.is_some_and(|range| distance > range)
-        }
-        _ => false,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -164,7 +154,6 @@ mod tests {
                 intensity: Rgb::ONE,
                 inner_angle,
                 outer_angle,
-                range: None,
             };
             let step = 0.01;
             let at = |k: i32| step * (f64::from(k) + 0.3);

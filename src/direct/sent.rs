@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
-use super::punctual::{intensity, is_beyond};
+use super::punctual::intensity;
 use super::{Lamp, Lamps};
 use crate::colour::{LUMENS_PER_WATT, Rgb};
 use crate::scene::Light;
@@ -56,8 +56,7 @@ fn sent_by(
         let away = direction(light, ray);
         let sent = intensity(light, away);
         all += sent;
-        let met = occluders.first(position, away);
-        match met.filter(|met| !is_beyond(light, met.place.distance(position))) {
+        match occluders.first(position, away) {
             None => past += sent,
             Some(met) if !met.front && is_back(met.surface) => behind += sent,
             Some(_) => {}
@@ -111,11 +110,10 @@ mod tests {
             intensity: Rgb::new(1.0, 2.0, 3.0),
             inner_angle: 0.3,
             outer_angle: 0.7,
-            range: None,
         };
         let mean =
             |light: &Light| (0..RAYS).map(|ray| direction(light, ray)).sum::<DVec3>() / RAYS as f64;
-        let point = Light::Point { position: DVec3::ZERO, intensity: Rgb::ONE, range: None };
+        let point = Light::Point { position: DVec3::ZERO, intensity: Rgb::ONE };
         assert!(mean(&point).length() < 1e-3);
         let middle = DVec3::new(0.6, 0.0, -0.8) * (1.0 + 0.7_f64.cos()) / 2.0;
         assert!(mean(&spot).distance(middle) < 1e-3);

@@ -22,7 +22,8 @@ pub(super) fn beside(path: &Path, textures: &[Texture]) -> Vec<PathBuf> {
     // A brightened JPEG becomes a PNG.
     let codings = |texture| [Coding::of(texture, 1.0), Coding::Png];
     let names = |(number, texture)| codings(texture).map(|coding| name_of(&stem, number, coding));
-    let pictures = textures.iter().enumerate().flat_map(names).map(|name| path.with_file_name(name));
+    let pictures =
+        textures.iter().enumerate().flat_map(names).map(|name| path.with_file_name(name));
     [path.with_extension("mtl")].into_iter().chain(pictures).collect()
 }
 

@@ -5,7 +5,6 @@ use std::ops::Range;
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-use crate::colour::Rgb;
 use crate::reconstruct::{Places, normal_at, triangulate};
 use crate::surface::{Surface, Surfaces, Weld};
 
@@ -18,6 +17,8 @@ pub struct CoarseMesh {
     pub normals: Vec<Vec3>,
     /// Texture coordinates, zero where a part has no texture.
     pub uvs: Vec<Vec2>,
+    /// Factors on the material's reflectance by the colours of vertices, 0..=1.
+    pub tints: Vec<Vec3>,
     /// Coordinates in the atlas, 0..=1 from the left and the top.
     pub light_uvs: Vec<Vec2>,
     /// Corners, counter-clockwise seen from the front.
@@ -26,13 +27,11 @@ pub struct CoarseMesh {
     pub parts: Vec<CoarsePart>,
 }
 
-/// A run of triangles of one look.
+/// A run of triangles of one material.
 #[derive(Clone, Debug)]
 pub struct CoarsePart {
     /// Index into [`Surfaces::materials`].
     pub material: u32,
-    /// Diffuse reflectance ρ, 0..=0.99, without the texture's part.
-    pub reflectance: Rgb,
     /// Range of indices into [`CoarseMesh::triangles`].
     pub triangles: Range<usize>,
 }
@@ -101,16 +100,16 @@ fn sheet(surface: &Surface, places: &Places, rings: Vec<Vec<u32>>) -> Sheet {
 type Bits<const N: usize> = [u32; N];
 
 impl CoarseMesh {
-    /// Joins sheets, look by look; `light_uv` says where in the atlas a place of a surface is.
+    /// Joins sheets, material by material; `light_uv` says where in the atlas a place of a surface is.
     pub(super) fn new(
         surfaces: &Surfaces,
         sheets: &[Sheet],
         light_uv: impl Fn(usize, DVec3) -> DVec2,
     ) -> Self {
         let mut mesh = Self::default();
-        for (material, reflectance, members) in looks(surfaces) {
+        for (material, members) in by_material(surfaces) {
             let first = mesh.triangles.len();
-            let mut known: BTreeMap<(u32, Bits<7>), u32> = BTreeMap::new();
+            let mut known: BTreeMap<(u32, Bits<10>), u32> = BTreeMap::new();
             for number in members {
                 let surface = &surfaces.list[number];
                 for triangle in &sheets[number].triangles {
@@ -123,7 +122,7 @@ impl CoarseMesh {
             }
             let triangles = first..mesh.triangles.len();
             if !triangles.is_empty() {
-                mesh.parts.push(CoarsePart { material, reflectance, triangles });
+                mesh.parts.push(CoarsePart { material, triangles });
             }
         }
         mesh
@@ -132,36 +131,37 @@ impl CoarseMesh {
     /// The vertex of a surface at a place, a new one unless facets that join smoothly there have made it.
     fn vertex(
         &mut self,
-        known: &mut BTreeMap<(u32, Bits<7>), u32>,
+        known: &mut BTreeMap<(u32, Bits<10>), u32>,
         surface: &Surface,
         (place, position, light_uv): (u32, DVec3, Vec2),
     ) -> u32 {
         let on_plane = surface.plane.flatten(position);
         let normal = normal_at(surface, on_plane).as_vec3();
         let uv = surface.uv.map_or(DVec2::ZERO, |uv| uv.transform_point2(on_plane)).as_vec2();
+        let tint = surface.tint.at(on_plane).as_vec3();
         let ([a, b, c], [d, e], [f, g]) = (normal.to_array(), uv.to_array(), light_uv.to_array());
-        let bits = [a, b, c, d, e, f, g].map(f32::to_bits);
+        let bits = [a, b, c, d, e, f, g, tint.x, tint.y, tint.z].map(f32::to_bits);
         *known.entry((place, bits)).or_insert_with(|| {
             self.positions.push(position);
             self.normals.push(normal);
             self.uvs.push(uv);
+            self.tints.push(tint);
             self.light_uvs.push(light_uv);
             self.positions.len() as u32 - 1
         })
     }
 }
 
-/// Surfaces by material and reflectance, in the order in which these are first seen.
-fn looks(surfaces: &Surfaces) -> Vec<(u32, Rgb, Vec<usize>)> {
-    let mut looks: Vec<(u32, Rgb, Vec<usize>)> = Vec::new();
+/// Surfaces by material, in the order in which these are first seen.
+fn by_material(surfaces: &Surfaces) -> Vec<(u32, Vec<usize>)> {
+    let mut found: Vec<(u32, Vec<usize>)> = Vec::new();
     let mut places = BTreeMap::new();
     for (number, surface) in surfaces.list.iter().enumerate() {
-        let key = (surface.material, surface.reflectance.to_array().map(f64::to_bits));
-        let place = *places.entry(key).or_insert_with(|| {
-            looks.push((surface.material, surface.reflectance, Vec::new()));
-            looks.len() - 1
+        let place = *places.entry(surface.material).or_insert_with(|| {
+            found.push((surface.material, Vec::new()));
+            found.len() - 1
         });
-        looks[place].2.push(number);
+        found[place].1.push(number);
     }
-    looks
+    found
 }

@@ -12,7 +12,8 @@ use crate::scene::boxes::{self, Tree, are_close};
 use crate::settings::Settings;
 use crate::surface::cut::{Cuts, convex_pieces};
 use crate::surface::polygon::{self, Convex, Segment};
-use crate::surface::{Cells, Plane, Surface, Surfaces, Weld, cell_key, cells_around, mean_texture};
+use crate::surface::{Cells, Plane, Surface, Surfaces, Weld, cell_key, cells_around};
+use crate::surface::{mean_reflectance, mean_texture};
 
 /// How far inside a border light is evaluated, in tolerances: well beyond what counts as touching it.
 const INSET: f64 = 50.0;
@@ -51,8 +52,9 @@ struct Sheet {
 /// What a patch is made from.
 struct Piece {
     outline: Convex,
-    /// Means of the reflectance's and of the exitance's texture.
-    textures: [Rgb; 2],
+    /// Mean diffuse reflectance, and mean exitance, W/m².
+    reflectance: Rgb,
+    exitance: Rgb,
     /// Of the sheet, those near it.
     contacts: SmallVec<[u32; 4]>,
 }
@@ -86,7 +88,7 @@ impl Mesh {
     }
 
     fn add_patch(&mut self, surfaces: &Surfaces, number: u32, piece: Piece) {
-        let Piece { outline, textures: [reflectance_texture, exitance_texture], contacts } = piece;
+        let Piece { outline, reflectance, exitance, contacts } = piece;
         let surface = &surfaces.list[number as usize];
         let patch = PatchId(self.patches.len() as u32);
         let root = ElementId(self.elements.len() as u32);
@@ -97,8 +99,8 @@ impl Mesh {
             corners: outline.iter().map(|&p| surface.plane.lift(p)).collect(),
             normal: surface.plane.normal,
             area,
-            reflectance: surface.reflectance * reflectance_texture,
-            exitance: surface.exitance * exitance_texture,
+            reflectance,
+            exitance,
             two_sided: surface.two_sided,
             contacts,
         });
@@ -267,7 +269,8 @@ impl VertexIndex {
         let flat = |segment: &Segment| boxes::around(segment.map(|p| p.extend(0.0)));
         let tree = Tree::new(contacts.iter().map(flat).collect());
         let piece = |outline: Convex| Piece {
-            textures: mean_texture(surfaces, surface, &outline),
+            reflectance: mean_reflectance(surfaces, surface, &outline),
+            exitance: surface.exitance * mean_texture(surfaces, surface, &outline)[1],
             contacts: touching((contacts, &tree), &outline, self.tolerance),
             outline,
         };

@@ -27,8 +27,6 @@ pub(super) struct Sheet {
     pub(super) curved: bool,
     /// Index into [`Surfaces::materials`].
     pub(super) material: u32,
-    /// Diffuse reflectance without the texture's part.
-    pub(super) reflectance: Rgb,
 }
 
 /// What will be a vertex of the triangle mesh.
@@ -40,6 +38,8 @@ pub(super) struct Corner {
     pub(super) irradiance: Irradiance,
     pub(super) radiosity: Rgb,
     pub(super) texture_mean: Rgb,
+    /// Diffuse reflectance without the texture's part.
+    pub(super) reflectance: Rgb,
 }
 
 /// Where a corner has its light from: a vertex of the mesh, or the middle of an edge between two.
@@ -110,7 +110,6 @@ impl Sheet {
             corners: builder.finish(),
             curved: !surface.normals.is_empty(),
             material: surface.material,
-            reflectance: surface.reflectance,
         }
     }
 }
@@ -165,6 +164,7 @@ impl Builder<'_> {
                 irradiance,
                 radiosity: Rgb::ZERO,
                 texture_mean: Rgb::ONE,
+                reflectance: self.surface.reflectance_at(position),
             };
             self.corners.push(corner);
             self.looks.push(Look::default());
@@ -210,12 +210,12 @@ impl Builder<'_> {
 
     /// The corners with their radiosities: B = E + ρ H, texture means included.
     fn finish(self) -> Vec<Corner> {
-        let Surface { reflectance, exitance, .. } = *self.surface;
+        let exitance = self.surface.exitance;
         let with_light = |(corner, look): (Corner, Look)| {
             let texture_mean = look.reflectance_texture / look.area;
             let emitted = exitance * look.exitance_texture / look.area;
             let Irradiance { direct, indirect, .. } = corner.irradiance;
-            let radiosity = emitted + reflectance * texture_mean * (direct + indirect);
+            let radiosity = emitted + corner.reflectance * texture_mean * (direct + indirect);
             Corner { radiosity, texture_mean, ..corner }
         };
         self.corners.into_iter().zip(self.looks).map(with_light).collect()

@@ -6,7 +6,7 @@ use super::sheet::{Corner, Sheet};
 use super::trimesh::Irradiance;
 use crate::colour::Rgb;
 
-/// Unit normals whose difference is no longer than this are one.
+/// Unit normals whose difference is no longer than this are one, and so are reflectances.
 const SAME: f64 = 1e-2;
 
 /// Gives corners of curved facets of one paint, at one place and with one normal, the mean of their
@@ -37,13 +37,13 @@ fn mean_of_alike(
     corners: &[(usize, usize)],
     (sheet, index): (usize, usize),
 ) -> [Rgb; 4] {
-    let (own, normal) = (&sheets[sheet], sheets[sheet].corners[index].normal);
-    let paint = |other: &Sheet| (other.material, other.reflectance);
+    let (material, own) = (sheets[sheet].material, &sheets[sheet].corners[index]);
     let alike = corners
         .iter()
-        .filter(|&&(sheet, _)| paint(&sheets[sheet]) == paint(own))
+        .filter(|&&(sheet, _)| sheets[sheet].material == material)
         .map(|&(sheet, index)| &sheets[sheet].corners[index])
-        .filter(|corner| corner.normal.distance(normal) <= SAME);
+        .filter(|corner| corner.normal.distance(own.normal) <= SAME)
+        .filter(|corner| corner.reflectance.distance(own.reflectance) <= SAME);
     let mut sums = [Rgb::ZERO; 4];
     let mut count = 0.0;
     for Corner { radiosity, texture_mean, irradiance, .. } in alike {

@@ -47,8 +47,9 @@ impl<'a> FinalGather<'a> {
         self.light.at(patch, site).irradiance
     }
 
-    /// Diffuse reflectance of a leaf, without the texture's part.
-    pub(super) fn reflectance(&self, leaf: ElementId) -> Rgb {
-        self.surfaces.list[self.mesh.surface_of(leaf)].reflectance
+    /// Diffuse reflectance at a place on a leaf, without the texture's part.
+    pub(super) fn reflectance(&self, leaf: ElementId, place: DVec3) -> Rgb {
+        let surface = &self.surfaces.list[self.mesh.surface_of(leaf)];
+        surface.reflectance_at(surface.plane.flatten(place))
     }
 }

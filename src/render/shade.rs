@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use glam::Vec2;
+use glam::{DVec3, Vec2};
 
 use super::caster::Hit;
 use super::colours::Swatch;
@@ -113,7 +113,7 @@ impl<'a> Shade<'a> {
         let Some(gather) = gather else {
             return interpolated;
         };
-        let reflectance = gather.reflectance(self.mesh.leaves[hit.triangle]);
+        let reflectance = gather.reflectance(self.mesh.leaves[hit.triangle], self.place(hit));
         if reflectance == Rgb::ZERO {
             return interpolated;
         }
@@ -130,10 +130,14 @@ impl<'a> Shade<'a> {
         let Some(gather) = gather else {
             return direct;
         };
-        let corners = self.mesh.triangles[hit.triangle].map(|c| self.mesh.positions[c as usize]);
-        let place = corners.iter().zip(hit.weights.to_array()).map(|(&p, weight)| p * weight).sum();
-        let exact = gather.direct(self.mesh.leaves[hit.triangle], place);
+        let exact = gather.direct(self.mesh.leaves[hit.triangle], self.place(hit));
         (direct + (exact - direct_on_facet)).max(Rgb::ZERO)
+    }
+
+    /// Where a hit is, m.
+    fn place(&self, hit: &Hit) -> DVec3 {
+        let corners = self.mesh.triangles[hit.triangle].map(|c| self.mesh.positions[c as usize]);
+        corners.iter().zip(hit.weights.to_array()).map(|(&p, weight)| p * weight).sum()
     }
 
     /// What the vertices say of the light that arrives; nothing in a mesh read from a file.

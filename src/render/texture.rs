@@ -9,7 +9,7 @@ use crate::scene::Texture;
 pub(super) fn sample(texture: &Texture, uv: Vec2) -> Rgb {
     let at = |index: usize| {
         let texel = texture.texels.get(index);
-        texel.map_or(Rgb::ONE, |&[r, g, b]| DVec3::new(r.into(), g.into(), b.into()))
+        texel.map_or(Rgb::ONE, |[r, g, b]| DVec3::new(r.into(), g.into(), b.into()))
     };
     mixed(texture, uv, at)
 }
@@ -51,7 +51,7 @@ mod tests {
         Texture {
             width: 2,
             height: 1,
-            texels: vec![[0.0; 3], [1.0; 3]],
+            texels: vec![[0.0; 3], [1.0; 3]].into(),
             sampler: Sampler { wrap: [wrap; 2], nearest: false },
             ..Texture::default()
         }

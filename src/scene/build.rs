@@ -64,12 +64,14 @@ impl Scene {
             return Some("has no area".to_owned());
         }
         let fits = |length: usize| length == 0 || length == count;
-        if !fits(face.normals.len()) || !fits(face.uvs.len()) {
-            return Some("has not as many normals or texture coordinates as corners".to_owned());
+        if ![face.normals.len(), face.uvs.len(), face.tints.len()].into_iter().all(fits) {
+            return Some(
+                "has not as many normals, texture coordinates or tints as corners".to_owned(),
+            );
         }
         let is_sound = face.normals.iter().all(|normal| normal.is_finite())
             && face.uvs.iter().all(|uv| uv.is_finite())
-            && is_colour(face.tint, 1.0 / f64::EPSILON);
+            && face.tints.iter().all(|tint| is_colour(tint.as_dvec3(), 1.0 / f64::EPSILON));
         (!is_sound).then(|| "has a normal, texture coordinate or tint that is no number".to_owned())
     }
 

@@ -193,6 +193,7 @@ fn with_corners(face: &Face, junctions: &[Junction]) -> Face {
     let mut grown = Face { vertices: SmallVec::new(), ..face.clone() };
     grown.normals.clear();
     grown.uvs.clear();
+    grown.tints.clear();
     let count = face.vertices.len();
     for corner in 0..count {
         let next = (corner + 1) % count;
@@ -205,6 +206,9 @@ fn with_corners(face: &Face, junctions: &[Junction]) -> Face {
             }
             if let (Some(a), Some(b)) = (face.uvs.get(corner), face.uvs.get(next)) {
                 grown.uvs.push(DVec2::lerp(*a, *b, share));
+            }
+            if let (Some(a), Some(b)) = (face.tints.get(corner), face.tints.get(next)) {
+                grown.tints.push(Vec3::lerp(*a, *b, share as f32));
             }
         }
     }

@@ -18,8 +18,6 @@ pub enum Light {
         position: DVec3,
         /// Radiant intensity, W/sr.
         intensity: Rgb,
-        /// Distance beyond which it is not felt, m, if the file limits it.
-        range: Option<f64>,
     },
     /// Shines in a cone, fading from the inner to the outer angle.
     Spot {
@@ -33,8 +31,6 @@ pub enum Light {
         inner_angle: f64,
         /// Half angle beyond which there is no light, radians.
         outer_angle: f64,
-        /// Distance beyond which it is not felt, m, if the file limits it.
-        range: Option<f64>,
     },
     /// Shines in one direction everywhere, like the sun.
     Directional {

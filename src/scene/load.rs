@@ -7,9 +7,10 @@ use super::boxes::local_origin;
 use super::notes::{counted, listed};
 use super::texture::mean;
 use super::{
-    LoadOptions, MAX_REFLECTANCE, Scene, Texture, Up, gltf, obj, repair, settle_sides, up,
+    EmissionUnit, LoadOptions, MAX_REFLECTANCE, Scene, Texture, gltf, obj, ply, repair,
+    settle_sides, stl, up,
 };
-use crate::colour::Rgb;
+use crate::colour::{LUMENS_PER_WATT, Rgb};
 use crate::error::{Error, Result};
 
 /// Coordinates beyond this are taken for a wrong unit or a broken file, m.
@@ -18,12 +19,15 @@ pub(super) const MAX_COORDINATE: f64 = 1e9;
 /// Radiance beyond this is cut, W/(m² sr): about 10^5 suns, and products of it stay finite.
 pub(crate) const MAX_RADIANCE: f64 = 1e12;
 
-/// Reads an OBJ (with its MTL), glTF or GLB file.
+/// Reads an OBJ (with its MTL), glTF, GLB, STL or PLY file.
 ///
 /// # Errors
 /// When the file cannot be read or is not what its ending says; the message names the place.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene> {
     let mut scene = read(path, options)?;
+    if options.emission == EmissionUnit::Nits {
+        scene.materials.iter_mut().for_each(|material| material.emission /= LUMENS_PER_WATT);
+    }
     refuse_huge_coordinates(path, &scene)?;
     repair::clean(&mut scene);
     limit_materials(&mut scene);
@@ -66,30 +70,31 @@ fn shorten(notes: &mut Vec<String>) {
 }
 
 fn read(path: &Path, options: &LoadOptions) -> Result<Scene> {
-    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    match ending.as_str() {
-        "obj" => {
-            let scale = options.metres_per_unit;
-            if !(scale.is_finite() && scale > 0.0) {
-                let message = format!("{scale} metres per unit; use a positive number");
-                return Err(Error::Setting { name: "units", message });
-            }
-            let mut scene = obj::read(path, options)?;
-            up::note_standing_floors(&mut scene, options.up);
-            Ok(scene)
-        }
-        "gltf" | "glb" if options.up == Up::Z => {
-            let message = "glTF files have Y up by definition; only OBJ files may have Z up";
-            Err(Error::Setting { name: "up", message: message.to_owned() })
-        }
-        "gltf" | "glb" if options.metres_per_unit != 1.0 => {
-            let message =
-                "glTF files are in metres by definition; only OBJ files may have another unit";
-            Err(Error::Setting { name: "units", message: message.to_owned() })
-        }
-        "gltf" | "glb" => gltf::read(path),
-        _ => Err(Error::UnknownFormat { path: path.to_owned(), known: ".obj, .gltf, .glb" }),
+    let scale = options.metres_per_unit;
+    if !(scale.is_finite() && scale > 0.0) {
+        let message = format!("{scale} metres per unit; use a positive number");
+        return Err(Error::Setting { name: "units", message });
     }
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let mut scene = match ending.as_str() {
+        "obj" => obj::read(path)?,
+        "gltf" | "glb" => gltf::read(path, options)?,
+        "stl" => stl::read(path)?,
+        "ply" => ply::read(path)?,
+        _ => {
+            let known = ".obj, .gltf, .glb, .stl, .ply";
+            return Err(Error::UnknownFormat { path: path.to_owned(), known });
+        }
+    };
+    if scene.files.is_empty() {
+        scene.files.push(path.to_owned());
+    }
+    up::lay(&mut scene, scale, options.up);
+    // Y is up in glTF by definition.
+    if !matches!(ending.as_str(), "gltf" | "glb") {
+        up::note_standing_floors(&mut scene, options.up);
+    }
+    Ok(scene)
 }
 
 fn refuse_huge_coordinates(path: &Path, scene: &Scene) -> Result<()> {
@@ -151,7 +156,8 @@ mod tests {
 
     #[test]
     fn a_texture_is_told_to_be_clamped_if_its_mean_times_its_factor_is_too_bright() {
-        let texture = |texels: Vec<[f32; 3]>| Texture { texels, ..Texture::default() };
+        let texture =
+            |texels: Vec<[f32; 3]>| Texture { texels: texels.into(), ..Texture::default() };
         let told = |factor: f64, texels: Vec<[f32; 3]>| {
             let textured = Material { texture: Some(0), ..Material::default() };
             let material = Material { reflectance: Rgb::splat(factor), ..textured };

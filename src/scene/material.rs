@@ -1,7 +1,10 @@
 //! Diffuse reflectance, emission and the pictures they are taken from.
 
+use std::sync::Arc;
+
 use glam::{DVec2, Vec3};
 
+use super::Texels;
 use crate::colour::Rgb;
 
 /// Largest reflectance a scene may hold in a channel: at 1, light in a closed room would never die out.
@@ -86,10 +89,10 @@ pub struct Texture {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Linear RGB, row by row from the top, `width * height` texels.
-    pub texels: Vec<[f32; 3]>,
-    /// The encoded picture as read, PNG or JPEG, written out again on export.
-    pub encoded: Vec<u8>,
+    /// `width * height` texels.
+    pub texels: Texels,
+    /// The encoded picture as read, PNG or JPEG, written out again on export; empty if it was neither.
+    pub encoded: Arc<[u8]>,
     /// `image/png` or `image/jpeg`.
     pub mime_type: String,
     /// Opacities, 0 to 255, as many as texels; empty for a picture that is opaque all over.
@@ -104,7 +107,7 @@ const BRIGHT: f32 = 0.9;
 impl Texture {
     /// The brightest channel of all texels, 0..=1, by which the picture is divided to be shown; 1 if that is near it.
     pub fn white(&self) -> f64 {
-        let brightest = self.texels.iter().flatten().copied().fold(0.0, f32::max);
+        let brightest = self.texels.iter().flatten().fold(0.0, f32::max);
         if brightest > 0.0 && brightest < BRIGHT { f64::from(brightest) } else { 1.0 }
     }
 
@@ -114,6 +117,6 @@ impl Texture {
         let column = wrap_u.texel((uv.x * f64::from(self.width)).floor(), self.width);
         let row = wrap_v.texel((uv.y * f64::from(self.height)).floor(), self.height);
         let texel = self.texels.get(row * self.width as usize + column);
-        texel.map_or(Rgb::ZERO, |&texel| Vec3::from(texel).as_dvec3())
+        texel.map_or(Rgb::ZERO, |texel| Vec3::from(texel).as_dvec3())
     }
 }

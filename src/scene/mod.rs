@@ -4,6 +4,7 @@
 //! linear, emission is radiance, lights are in watts, texture coordinates have their transforms applied.
 
 mod adding;
+mod backdrop;
 pub(crate) mod boxes;
 mod build;
 mod camera;
@@ -15,15 +16,20 @@ mod junctions;
 mod light;
 mod load;
 mod material;
+mod named;
 mod names;
 mod notes;
 mod obj;
 mod overrides;
 mod photometry;
+mod ply;
 mod polygon;
 mod repair;
 mod sides;
 mod sight;
+mod stl;
+mod texels;
+mod text;
 mod texture;
 mod up;
 mod weld;
@@ -32,8 +38,6 @@ use std::path::PathBuf;
 
 use glam::{DVec2, DVec3, Vec3};
 use smallvec::SmallVec;
-
-use crate::colour::Rgb;
 
 pub(crate) use self::gltf::sampler_of;
 pub use adding::{Amount, AreaLight};
@@ -47,6 +51,7 @@ pub(crate) use notes::note_count;
 pub use photometry::Photometry;
 pub(crate) use polygon::area_vector;
 pub use sides::{Sides, settle_sides};
+pub use texels::Texels;
 pub(crate) use texture::decode;
 pub use up::Up;
 
@@ -100,8 +105,8 @@ pub struct Face {
     pub normals: SmallVec<[Vec3; 4]>,
     /// Texture coordinates, origin at the picture's top left as in glTF; empty without texture.
     pub uvs: SmallVec<[DVec2; 4]>,
-    /// Factor on the material's reflectance: the mean of the face's vertex colours, else 1.
-    pub tint: Rgb,
+    /// Factors on the material's reflectance, 0..=1 per channel, linear between the corners; empty for 1.
+    pub tints: SmallVec<[Vec3; 4]>,
     /// Index into [`Scene::materials`].
     pub material: u32,
     /// Index into [`Scene::objects`].
@@ -118,24 +123,37 @@ impl Face {
 impl Default for Face {
     fn default() -> Self {
         let (vertices, normals, uvs) = (SmallVec::new(), SmallVec::new(), SmallVec::new());
-        Self { vertices, normals, uvs, tint: Rgb::ONE, material: 0, object: 0 }
+        Self { vertices, normals, uvs, tints: SmallVec::new(), material: 0, object: 0 }
     }
 }
 
 /// How to read a file that leaves something open.
 #[derive(Clone, Debug)]
 pub struct LoadOptions {
-    /// Metres per unit of an OBJ file (glTF is in metres by definition), default 1.
+    /// Metres per unit of the file's coordinates, default 1.
     pub metres_per_unit: f64,
-    /// Which axis of an OBJ file is up, default Y (it is in glTF by definition).
+    /// Which axis of the file is up, default Y.
     pub up: Up,
+    /// What the numbers of emission are, default radiance.
+    pub emission: EmissionUnit,
     /// Which sides of faces reflect and emit.
     pub two_sided: Sides,
 }
 
+/// The unit in which a file gives what its materials emit, be it `Ke` or glTF emission.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum EmissionUnit {
+    /// Radiance, W/(m² sr), as most exporters write.
+    #[default]
+    Radiance,
+    /// Luminance, cd/m², as the text of glTF wants; 683 lm/W.
+    Nits,
+}
+
 impl Default for LoadOptions {
     fn default() -> Self {
-        Self { metres_per_unit: 1.0, up: Up::Y, two_sided: Sides::Auto }
+        let emission = EmissionUnit::Radiance;
+        Self { metres_per_unit: 1.0, up: Up::Y, emission, two_sided: Sides::Auto }
     }
 }
 
@@ -152,6 +170,13 @@ impl Scene {
     /// Diagonal of [`Self::bounds`], m; 0 without faces.
     pub fn extent(&self) -> f64 {
         self.bounds().map_or(0.0, |(low, high)| low.distance(high))
+    }
+
+    /// A texture of the same picture as one that there is, read by another sampler.
+    fn add_texture_like(&mut self, known: u32, sampler: Sampler) -> u32 {
+        let texture = Texture { sampler, ..self.textures[known as usize].clone() };
+        self.textures.push(texture);
+        self.textures.len() as u32 - 1
     }
 
     /// Drops the faces of some materials; tells how many.

@@ -6,7 +6,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use smallvec::SmallVec;
 
 use super::corners::{settle_normals, settle_uvs};
@@ -101,6 +101,7 @@ fn part(face: &Face, corners: &[usize]) -> Face {
         vertices: corners.iter().map(|&corner| face.vertices[corner]).collect(),
         normals: corners.iter().filter_map(|&corner| face.normals.get(corner).copied()).collect(),
         uvs: corners.iter().filter_map(|&corner| face.uvs.get(corner).copied()).collect(),
+        tints: corners.iter().filter_map(|&corner| face.tints.get(corner).copied()).collect(),
         ..*face
     }
 }
@@ -109,10 +110,10 @@ fn part(face: &Face, corners: &[usize]) -> Face {
 enum Difficulty {
     Bulging,
     Crossing,
-    WarpedPicture,
+    Warped,
 }
 
-/// Cuts polygons that are not planar, not simple or not affinely textured into triangles.
+/// Cuts polygons that are not planar, not simple or not affinely textured and tinted into triangles.
 fn split_difficult(scene: &mut Scene) {
     let (mut bulging, mut crossing) = (0, 0);
     let mut faces = Vec::with_capacity(scene.faces.len());
@@ -146,11 +147,22 @@ fn difficulty(face: &Face, corners: &[DVec3], flat: &[DVec2], normal: DVec3) -> 
         Some(Difficulty::Bulging)
     } else if !is_simple(flat) {
         Some(Difficulty::Crossing)
-    } else if !face.uvs.is_empty() && !is_affine(flat, &face.uvs) {
-        Some(Difficulty::WarpedPicture)
+    } else if is_warped(face, flat) {
+        Some(Difficulty::Warped)
     } else {
         None
     }
+}
+
+/// Whether no affine map gives all corners what they carry.
+fn is_warped(face: &Face, flat: &[DVec2]) -> bool {
+    let tints = |part: fn(&Vec3) -> Vec2| -> Vec<DVec2> {
+        face.tints.iter().map(|tint| part(tint).as_dvec2()).collect()
+    };
+    let affine = |values: &[DVec2]| values.is_empty() || is_affine(flat, values);
+    !affine(&face.uvs)
+        || !affine(&tints(|tint| tint.truncate()))
+        || !affine(&tints(|tint| Vec2::splat(tint.z)))
 }
 
 fn has_area(positions: &[DVec3], face: &Face) -> bool {

@@ -63,17 +63,29 @@ impl<'a> Sight<'a> {
 
     /// What a ray from `start` along a unit `direction` meets.
     pub(super) fn first(&self, start: DVec3, direction: DVec3) -> Option<Hit> {
-        let mut met = Vec::new();
-        self.tree.find(|bounds| meets(start, direction, bounds, self.nearest), &mut met);
-        let met = met.into_iter().map(|index| &self.triangles[index as usize]);
-        let hits = met.filter_map(|(face, corners)| {
-            let (distance, front) = crossing(start, direction, corners)?;
-            (distance > self.nearest).then_some((distance, front, *face))
-        });
+        let hits = self.hits(start, direction).into_iter();
         let (distance, front, face) = hits.min_by(|a, b| a.0.total_cmp(&b.0))?;
         let material = &self.scene.materials[self.scene.faces[face as usize].material as usize];
         let lamp = material.emission.max_element() > 0.0;
         Some(Hit { distance, front: front || material.double_sided, lamp })
+    }
+
+    /// The face that a ray leaves the scene through.
+    pub(super) fn last(&self, start: DVec3, direction: DVec3) -> Option<u32> {
+        let hits = self.hits(start, direction).into_iter();
+        hits.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(.., face)| face)
+    }
+
+    /// All that a ray meets: how far away, m, whether on its front, and which face.
+    fn hits(&self, start: DVec3, direction: DVec3) -> Vec<(f64, bool, u32)> {
+        let mut met = Vec::new();
+        self.tree.find(|bounds| meets(start, direction, bounds, self.nearest), &mut met);
+        let met = met.into_iter().map(|index| &self.triangles[index as usize]);
+        let hit = |(face, corners): &(u32, [DVec3; 3])| {
+            let (distance, front) = crossing(start, direction, corners)?;
+            (distance > self.nearest).then_some((distance, front, *face))
+        };
+        met.filter_map(hit).collect()
     }
 }
 

@@ -1,12 +1,10 @@
 //! Pictures: decoding, and how a material's pictures and texture coordinates belong together.
 
-use std::io::Cursor;
-
 use glam::{DAffine2, DVec2};
-use image::{DynamicImage, ImageFormat, Rgb32FImage};
+use image::{DynamicImage, ImageFormat};
 
 use super::notes::listed;
-use super::{MAX_REFLECTANCE, Material, Sampler, Scene, Texture};
+use super::{MAX_REFLECTANCE, Material, Sampler, Scene, Texels, Texture};
 use crate::colour::{Rgb, linear_from_srgb};
 
 /// How a file's texture coordinates become the scene's.
@@ -51,9 +49,8 @@ pub(crate) fn attach_pictures(
     material.texture = reflectance.map(|picture| picture.texture);
     if let Some(picture) = reflectance {
         // Only floating-point pictures hold more, and nothing reflects more than it receives.
-        for channel in scene.textures[picture.texture as usize].texels.iter_mut().flatten() {
-            *channel = channel.min(1.0);
-        }
+        let texture = &mut scene.textures[picture.texture as usize];
+        texture.texels = std::mem::take(&mut texture.texels).at_most_one();
     }
     let mapping = reflectance.or(emission).map(|picture| picture.mapping).unwrap_or_default();
     if let Some(glow) = emission {
@@ -72,7 +69,7 @@ pub(crate) fn attach_pictures(
 
 /// Mean colour of a texture.
 pub(crate) fn mean(texture: &Texture) -> Rgb {
-    let sum: Rgb = texture.texels.iter().map(|&texel| glam::Vec3::from(texel).as_dvec3()).sum();
+    let sum: Rgb = texture.texels.iter().map(|texel| glam::Vec3::from(texel).as_dvec3()).sum();
     sum / texture.texels.len().max(1) as f64
 }
 
@@ -94,15 +91,18 @@ pub(crate) fn note_missing(notes: &mut Vec<String>, materials: &[String]) {
 /// Decodes a picture, or says why it cannot.
 ///
 /// Integer pictures are taken as sRGB, floating-point ones as linear. `encoded` is kept when it is
-/// PNG or JPEG; anything else is coded again as PNG.
+/// PNG or JPEG.
 pub(crate) fn decode(name: &str, encoded: &[u8], sampler: Sampler) -> Result<Texture, String> {
-    let format = image::guess_format(encoded).map_err(|error| error.to_string())?;
+    // TGA files say nothing about themselves.
+    let format = image::guess_format(encoded)
+        .or_else(|error| ImageFormat::from_path(name).map_err(|_| error))
+        .map_err(|error| error.to_string())?;
     let picture =
         image::load_from_memory_with_format(encoded, format).map_err(|error| error.to_string())?;
     let (encoded, mime_type) = match format {
-        ImageFormat::Png => (encoded.to_vec(), "image/png"),
-        ImageFormat::Jpeg => (encoded.to_vec(), "image/jpeg"),
-        _ => (as_png(&picture)?, "image/png"),
+        ImageFormat::Png => (encoded, "image/png"),
+        ImageFormat::Jpeg => (encoded, "image/jpeg"),
+        _ => (&[][..], ""),
     };
     Ok(Texture {
         name: name.to_owned(),
@@ -110,7 +110,7 @@ pub(crate) fn decode(name: &str, encoded: &[u8], sampler: Sampler) -> Result<Tex
         height: picture.height(),
         alpha: opacities(&picture),
         texels: linear_texels(picture),
-        encoded,
+        encoded: encoded.into(),
         mime_type: mime_type.to_owned(),
         sampler,
     })
@@ -125,35 +125,11 @@ fn opacities(picture: &DynamicImage) -> Vec<u8> {
     if alpha.iter().all(|&alpha| alpha == u8::MAX) { Vec::new() } else { alpha }
 }
 
-fn as_png(picture: &DynamicImage) -> Result<Vec<u8>, String> {
-    let coded = match picture.color().has_alpha() && !is_linear(picture) {
-        true => DynamicImage::ImageRgba8(picture.to_rgba8()),
-        false => {
-            DynamicImage::ImageRgb8(DynamicImage::ImageRgb32F(coded_floats(picture)).to_rgb8())
-        }
-    };
-    let mut bytes = Cursor::new(Vec::new());
-    let written = coded.write_to(&mut bytes, ImageFormat::Png);
-    written.map_err(|error| error.to_string())?;
-    Ok(bytes.into_inner())
-}
-
-/// The picture with sRGB-coded values in 0..=1.
-fn coded_floats(picture: &DynamicImage) -> Rgb32FImage {
-    let mut floats = picture.to_rgb32f();
-    if is_linear(picture) {
-        for value in floats.iter_mut() {
-            *value = crate::colour::srgb_from_linear(f64::from(value.max(0.0))) as f32;
-        }
-    }
-    floats
-}
-
 fn is_linear(picture: &DynamicImage) -> bool {
     matches!(picture, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_))
 }
 
-fn linear_texels(picture: DynamicImage) -> Vec<[f32; 3]> {
+fn linear_texels(picture: DynamicImage) -> Texels {
     if is_linear(&picture) {
         let sound = |x: f32| if x.is_finite() { x.max(0.0) } else { 0.0 };
         return picture.to_rgb32f().pixels().map(|pixel| pixel.0.map(sound)).collect();
@@ -162,14 +138,15 @@ fn linear_texels(picture: DynamicImage) -> Vec<[f32; 3]> {
         let decode = |x: u16| linear_from_srgb(f64::from(x) / 65535.0) as f32;
         return picture.to_rgb16().pixels().map(|pixel| pixel.0.map(decode)).collect();
     }
-    let table: Vec<f32> =
-        (0..=255).map(|x| linear_from_srgb(f64::from(x) / 255.0) as f32).collect();
-    let decode = |x: u8| table[usize::from(x)];
-    picture.into_rgb8().pixels().map(|pixel| pixel.0.map(decode)).collect()
+    Texels::from_srgb(picture.into_rgb8().into_raw())
 }
 
 #[cfg(test)]
 mod tests {
+    use std::io::Cursor;
+
+    use image::Rgb32FImage;
+
     use super::*;
 
     fn encoded(format: ImageFormat, picture: &DynamicImage) -> Vec<u8> {
@@ -185,25 +162,26 @@ mod tests {
         let bytes = encoded(ImageFormat::Png, &picture);
         let texture = decode("t", &bytes, Sampler::default()).unwrap();
         assert_eq!((texture.width, texture.height, texture.texels.len()), (2, 1, 2));
-        assert!((texture.texels[1][0] - 0.502_886_5).abs() < 1e-5, "{:?}", texture.texels);
-        assert_eq!(texture.encoded, bytes);
+        let texel = texture.texels.get(1).unwrap();
+        assert!((texel[0] - 0.502_886_5).abs() < 1e-5, "{texel:?}");
+        assert_eq!(texture.texels.memory().1, 6);
+        assert_eq!(*texture.encoded, bytes);
     }
 
     #[test]
-    fn floating_pictures_are_linear_and_coded_again() {
+    fn floating_pictures_are_linear() {
         let picture =
             DynamicImage::ImageRgb32F(Rgb32FImage::from_pixel(1, 1, image::Rgb([0.5, 4.0, 0.0])));
         let texture =
             decode("t", &encoded(ImageFormat::OpenExr, &picture), Sampler::default()).unwrap();
-        assert_eq!(texture.texels, [[0.5, 4.0, 0.0]]);
-        assert_eq!(texture.mime_type, "image/png");
-        let again = decode("t", &texture.encoded, Sampler::default()).unwrap();
-        assert!((again.texels[0][0] - 0.5).abs() < 0.01, "{:?}", again.texels);
+        assert_eq!(texture.texels, vec![[0.5, 4.0, 0.0]].into());
+        assert!(texture.encoded.is_empty());
     }
 
     #[test]
     fn an_emission_picture_laid_on_differently_becomes_its_mean() {
-        let texture = |texels: Vec<[f32; 3]>| Texture { texels, ..Texture::default() };
+        let texture =
+            |texels: Vec<[f32; 3]>| Texture { texels: texels.into(), ..Texture::default() };
         let mut scene = Scene {
             textures: vec![texture(vec![[3.0, 0.5, 0.0]]), texture(vec![[1.0; 3], [0.0; 3]])],
             ..Scene::default()
@@ -215,8 +193,22 @@ mod tests {
         let mapping = attach_pictures(&mut scene, &mut material, picture(0, 0), picture(1, 1));
         assert_eq!((mapping.set, material.texture, material.emission_texture), (0, Some(0), None));
         assert_eq!(material.emission, Rgb::splat(2.0));
-        assert_eq!(scene.textures[0].texels, [[1.0, 0.5, 0.0]]);
+        assert_eq!(scene.textures[0].texels, vec![[1.0, 0.5, 0.0]].into());
         assert_eq!(scene.notes.len(), 1);
+    }
+
+    #[test]
+    fn pictures_of_every_format_are_read() {
+        use ImageFormat::{Bmp, Gif, Tga, Tiff, WebP};
+        let picture =
+            DynamicImage::ImageRgb8(image::RgbImage::from_pixel(2, 3, image::Rgb([0, 255, 0])));
+        for (name, format) in
+            [("a.bmp", Bmp), ("a.GIF", Gif), ("a.tga", Tga), ("a.tif", Tiff), ("a.webp", WebP)]
+        {
+            let texture = decode(name, &encoded(format, &picture), Sampler::default()).unwrap();
+            assert_eq!((texture.width, texture.height), (2, 3), "{name}");
+            assert!(texture.texels.iter().all(|texel| texel == [0.0, 1.0, 0.0]), "{name}");
+        }
     }
 
     #[test]

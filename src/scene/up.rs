@@ -1,9 +1,11 @@
-//! Which axis of an OBJ file is up, and how the scene is laid so that it is Y.
+//! The unit of a file and which axis is up in it, and how the scene is laid in metres so that it is Y.
 
 use std::collections::BTreeSet;
 
+use glam::DVec3;
+
 use super::notes::listed;
-use super::{Scene, area_vector};
+use super::{Light, NamedLight, Scene, area_vector};
 
 /// The axis of a file that points up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,13 +19,39 @@ pub enum Up {
 }
 
 impl Up {
-    /// Turns triples of coordinates so that Y is up.
-    pub(super) fn lay(self, coordinates: &mut [f64]) {
-        if self == Self::Y {
-            return;
+    /// A vector of the file in the scene.
+    fn laid(self, vector: DVec3) -> DVec3 {
+        match self {
+            Self::Y => vector,
+            Self::Z => DVec3::new(vector.x, vector.z, -vector.y),
         }
-        for point in coordinates.chunks_exact_mut(3) {
-            (point[1], point[2]) = (point[2], -point[1]);
+    }
+}
+
+/// Brings a scene as it was read into metres, with Y up.
+pub(super) fn lay(scene: &mut Scene, metres_per_unit: f64, up: Up) {
+    if (metres_per_unit, up) == (1.0, Up::Y) {
+        return;
+    }
+    let place = |place: &mut DVec3| *place = metres_per_unit * up.laid(*place);
+    let turn = |vector: &mut DVec3| *vector = up.laid(*vector);
+    scene.positions.iter_mut().for_each(place);
+    for normal in scene.faces.iter_mut().flat_map(|face| &mut face.normals) {
+        *normal = up.laid(normal.as_dvec3()).as_vec3();
+    }
+    for camera in &mut scene.cameras {
+        [&mut camera.eye, &mut camera.target].into_iter().for_each(place);
+        turn(&mut camera.up);
+    }
+    for NamedLight { light, .. } in &mut scene.lights {
+        match light {
+            Light::Point { position, .. } | Light::Luminaire { position, .. } => place(position),
+            Light::Spot { position, direction, .. } => {
+                place(position);
+                turn(direction);
+            }
+            Light::Directional { direction, .. } | Light::Sun { direction, .. } => turn(direction),
+            Light::Sky { .. } => {}
         }
     }
 }

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::plane::Plane;
 use super::polygon::{Ring, area};
+use super::tint::{Tint, Widest};
 use crate::scene::{Face, Scene};
 
 /// A planar region: the faces it was joined from and its outline.
@@ -16,8 +17,27 @@ pub(super) struct Region {
     pub(super) faces: Vec<usize>,
     /// Outer ring first, counter-clockwise; holes clockwise.
     pub(super) rings: Vec<Ring>,
+    pub(super) look: Look,
+}
+
+/// How what the corners of faces carry continues over their plane.
+#[derive(Clone, Copy)]
+pub(super) struct Look {
     /// From plane coordinates to texture coordinates.
     pub(super) uv: Option<DAffine2>,
+    pub(super) tint: Tint,
+}
+
+impl Look {
+    fn of(scene: &Scene, plane: &Plane, face: &Face) -> Self {
+        let corners = face.corners(&scene.positions);
+        let places: Vec<DVec2> = corners.into_iter().map(|p| plane.flatten(p)).collect();
+        let widest = Widest::of(&places);
+        Self {
+            uv: widest.and_then(|corner| uv_map(&corner, &places, face)),
+            tint: Tint::of(face, widest.as_ref(), &places),
+        }
+    }
 }
 
 /// The regions of a scene, in the order of their first faces.
@@ -30,13 +50,13 @@ pub(super) fn regions(scene: &Scene, tolerance: f64) -> Vec<Region> {
             continue;
         }
         let plane = plane_of(scene, &scene.faces[seed]);
-        let uv = uv_map(scene, &plane, &scene.faces[seed]);
+        let look = Look::of(scene, &plane, &scene.faces[seed]);
         let mut faces = vec![seed];
         taken[seed] = true;
         let mut next = 0;
         while next < faces.len() {
             for other in neighbours.of(scene, faces[next]) {
-                let fits = || continues(scene, seed, other, (&plane, uv), tolerance);
+                let fits = || continues(scene, seed, other, (&plane, &look), tolerance);
                 if !taken[other] && fits() {
                     taken[other] = true;
                     faces.push(other);
@@ -45,7 +65,7 @@ pub(super) fn regions(scene: &Scene, tolerance: f64) -> Vec<Region> {
             next += 1;
         }
         let rings = outline(scene, &plane, &faces);
-        regions.push(Region { plane, faces, rings, uv });
+        regions.push(Region { plane, faces, rings, look });
     }
     regions
 }
@@ -54,8 +74,8 @@ pub(super) fn regions(scene: &Scene, tolerance: f64) -> Vec<Region> {
 pub(super) fn single_faces(scene: &Scene) -> Vec<Region> {
     let region = |(index, face): (usize, &Face)| {
         let plane = plane_of(scene, face);
-        let uv = uv_map(scene, &plane, face);
-        Region { plane, faces: vec![index], rings: outline(scene, &plane, &[index]), uv }
+        let look = Look::of(scene, &plane, face);
+        Region { plane, faces: vec![index], rings: outline(scene, &plane, &[index]), look }
     };
     scene.faces.iter().enumerate().map(region).collect()
 }
@@ -106,47 +126,39 @@ fn continues(
     scene: &Scene,
     seed: usize,
     other: usize,
-    (plane, uv): (&Plane, Option<DAffine2>),
+    (plane, look): (&Plane, &Look),
     tolerance: f64,
 ) -> bool {
     let (first, face) = (&scene.faces[seed], &scene.faces[other]);
-    let same_look = first.material == face.material && first.tint == face.tint;
     let flat = first.normals.is_empty() && face.normals.is_empty();
-    let same_picture = || match (uv, uv_map(scene, plane, face)) {
-        (None, None) => true,
-        (Some(a), Some(b)) => {
-            (a.matrix2 - b.matrix2).abs_diff_eq(DMat2::ZERO, 1e-4)
-                && face.corners(&scene.positions).into_iter().all(|p| {
-                    let p = plane.flatten(p);
-                    a.transform_point2(p).distance(b.transform_point2(p)) < 1e-4
-                })
-        }
-        _ => false,
+    let same_look = || {
+        let other = Look::of(scene, plane, face);
+        face.corners(&scene.positions).into_iter().all(|p| {
+            let p = plane.flatten(p);
+            let apart =
+                |a: DAffine2, b: DAffine2| a.transform_point2(p).distance(b.transform_point2(p));
+            let same_picture = match (look.uv, other.uv) {
+                (None, None) => true,
+                (Some(a), Some(b)) => {
+                    (a.matrix2 - b.matrix2).abs_diff_eq(DMat2::ZERO, 1e-4) && apart(a, b) < 1e-4
+                }
+                _ => false,
+            };
+            same_picture && look.tint.is_like(&other.tint, p)
+        })
     };
-    same_look
+    first.material == face.material
         && flat
         && plane_of(scene, face).normal.dot(plane.normal) > 0.5
         && face.corners(&scene.positions).into_iter().all(|p| plane.height(p).abs() <= tolerance)
-        && same_picture()
+        && same_look()
 }
 
 /// The affine map from plane to texture coordinates, by the widest corner of the face.
-fn uv_map(scene: &Scene, plane: &Plane, face: &Face) -> Option<DAffine2> {
-    if face.uvs.is_empty() {
-        return None;
-    }
-    let places: Vec<DVec2> =
-        face.corners(&scene.positions).into_iter().map(|p| plane.flatten(p)).collect();
-    let n = places.len();
-    let frame = |points: &[DVec2], k: usize| {
-        let (here, next, last) = (points[k], points[(k + 1) % n], points[(k + n - 1) % n]);
-        DMat2::from_cols(next - here, last - here)
-    };
-    let spread = |k: &usize| frame(&places, *k).determinant().abs();
-    let widest = (0..n).max_by(|a, b| spread(a).total_cmp(&spread(b)))?;
-    let matrix = frame(&face.uvs, widest) * frame(&places, widest).inverse();
-    let translation = face.uvs[widest] - matrix * places[widest];
-    let map = DAffine2::from_mat2_translation(matrix, translation);
+fn uv_map(widest: &Widest, places: &[DVec2], face: &Face) -> Option<DAffine2> {
+    let (at, [next, last]) = (*face.uvs.get(widest.corner)?, widest.neighbours(face.uvs.len()));
+    let matrix = DMat2::from_cols(face.uvs[next] - at, face.uvs[last] - at) * widest.inverse;
+    let map = DAffine2::from_mat2_translation(matrix, at - matrix * places[widest.corner]);
     map.is_finite().then_some(map)
 }
 

@@ -10,6 +10,7 @@ mod partly;
 mod picture;
 mod plane;
 pub mod polygon;
+mod tint;
 mod weld;
 
 use glam::{DAffine2, DMat2, DVec2, DVec3};
@@ -20,9 +21,10 @@ use crate::scene::boxes;
 use crate::scene::{Camera, Material, NamedLight, Node, Scene, Texture};
 
 pub use light_group::{LightGroup, StrengthUnit};
-pub use picture::mean_texture;
+pub use picture::{mean_reflectance, mean_texture};
 pub use plane::Plane;
 pub use polygon::{Ring, Segment};
+pub use tint::Tint;
 pub use weld::Weld;
 pub(crate) use weld::{Cells, cell_key, cells_around};
 
@@ -63,8 +65,10 @@ pub struct Surface {
     pub rings: Vec<Ring>,
     /// Lines along which another surface meets this one, or hovers close over it.
     pub contacts: Vec<Segment>,
-    /// Diffuse reflectance ρ, 0..=0.99, without the texture's part.
+    /// Diffuse reflectance ρ, 0..=0.99, without the tint's and the texture's part.
     pub reflectance: Rgb,
+    /// Factor on it by the colours of vertices.
+    pub tint: Tint,
     /// Exitance E = πL, W/m², without the texture's part.
     pub exitance: Rgb,
     /// Index into [`Surfaces::materials`].
@@ -182,11 +186,12 @@ impl Surface {
             plane: region.plane,
             rings: region.rings,
             contacts: Vec::new(),
-            reflectance: material.reflectance * face.tint,
+            reflectance: material.reflectance,
+            tint: region.look.tint,
             exitance: material.emission * std::f64::consts::PI,
             material: face.material,
             object: face.object,
-            uv: region.uv,
+            uv: region.look.uv,
             normals: face.normals.iter().map(|n| n.as_dvec3()).collect(),
             two_sided: material.double_sided,
             is_back: false,
@@ -200,6 +205,7 @@ impl Surface {
             plane: self.plane.reversed(),
             rings: self.rings.iter().map(swap).collect(),
             uv: self.uv.map(|uv| uv * DAffine2::from_mat2(SWAP)),
+            tint: self.tint.reversed(),
             normals: self.normals.iter().rev().map(|&n| -n).collect(),
             is_back: true,
             ..self.clone()
@@ -220,6 +226,16 @@ impl Surface {
     /// Area, m².
     pub fn area(&self) -> f64 {
         self.rings.iter().map(|ring| polygon::area(ring)).sum()
+    }
+
+    /// Diffuse reflectance at a place of its plane, without the texture's part.
+    pub fn reflectance_at(&self, place: DVec2) -> Rgb {
+        self.reflectance * self.tint.at(place)
+    }
+
+    /// True if it reflects light somewhere.
+    pub fn reflects(&self) -> bool {
+        self.reflectance.max_element() > 0.0 && self.tint.uniform() != Some(Rgb::ZERO)
     }
 
     /// True if it sends out light of its own.

@@ -94,8 +94,8 @@ fn split(regions: &mut Vec<Region>, pieces: Vec<Option<Vec<Vec<Ring>>>>) {
             continue;
         };
         for rings in pieces {
-            let Region { plane, ref faces, uv, .. } = region;
-            regions.push(Region { plane, faces: faces.clone(), rings, uv });
+            let Region { plane, ref faces, look, .. } = region;
+            regions.push(Region { plane, faces: faces.clone(), rings, look });
         }
     }
 }

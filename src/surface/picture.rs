@@ -2,8 +2,8 @@
 
 use glam::{DAffine2, DVec2};
 
-use super::polygon::{Convex, Line, area, bounds};
-use super::{Surface, Surfaces};
+use super::polygon::{Convex, Line, area, bounds, centroid};
+use super::{Surface, Surfaces, Tint};
 use crate::colour::Rgb;
 use crate::scene::Texture;
 
@@ -16,35 +16,59 @@ pub fn mean_texture(surfaces: &Surfaces, surface: &Surface, outline: &[DVec2]) -
     let material = &surfaces.materials[surface.material as usize];
     [material.texture, material.emission_texture].map(|texture| {
         let texture = texture.map(|t| &surfaces.textures[t as usize]);
-        texture.zip(surface.uv).map_or(Rgb::ONE, |(texture, uv)| mean(texture, uv, outline))
+        texture.zip(surface.uv).map_or(Rgb::ONE, |(texture, uv)| mean(texture, uv, outline, None))
     })
 }
 
-/// Mean of a texture over a polygon: exact, unless it has too many texels.
-fn mean(texture: &Texture, uv: DAffine2, outline: &[DVec2]) -> Rgb {
+/// Mean diffuse reflectance over a convex polygon on a surface, tint and texture included.
+pub fn mean_reflectance(surfaces: &Surfaces, surface: &Surface, outline: &[DVec2]) -> Rgb {
+    let texture = surfaces.materials[surface.material as usize].texture;
+    let texture = texture.map(|t| &surfaces.textures[t as usize]).zip(surface.uv);
+    let varied = match (surface.tint.uniform(), texture) {
+        (Some(tint), None) => tint,
+        (Some(tint), Some((texture, uv))) => tint * mean(texture, uv, outline, None),
+        // What is linear has its mean at the centroid.
+        (None, None) => surface.tint.at(centroid(outline)),
+        (None, Some((texture, uv))) => mean(texture, uv, outline, Some(&surface.tint)),
+    };
+    surface.reflectance * varied
+}
+
+/// Mean of a texture, times a tint if there is one, over a polygon: exact, unless it has too many texels.
+fn mean(texture: &Texture, uv: DAffine2, outline: &[DVec2], tint: Option<&Tint>) -> Rgb {
     let size = DVec2::new(f64::from(texture.width), f64::from(texture.height));
     let on_texels: Convex = outline.iter().map(|&p| uv.transform_point2(p) * size).collect();
     let [low, high] = bounds(&on_texels);
+    let to_plane = tint.map(|tint| (tint, uv.inverse()));
+    let tinted = |colour: Rgb, middle: &dyn Fn() -> DVec2| match to_plane {
+        Some((tint, inverse)) => colour * tint.at(inverse.transform_point2(middle() / size)),
+        None => colour,
+    };
     let sum = if (high - low).max_element() <= MOST_TEXELS {
-        weighed(&on_texels, |texel| texture.sample((texel + 0.5) / size))
+        weighed(&on_texels, |texel, part| {
+            tinted(texture.sample((texel + 0.5) / size), &|| centroid(part))
+        })
     } else {
-        sampled(&on_texels, |place| texture.sample(place / size))
+        sampled(&on_texels, |place| tinted(texture.sample(place / size), &|| place))
     };
     let middle = || on_texels.iter().sum::<DVec2>() / on_texels.len().max(1) as f64;
-    sum.unwrap_or_else(|| texture.sample(middle() / size))
+    sum.unwrap_or_else(|| tinted(texture.sample(middle() / size), &middle))
 }
 
 /// Mean over a polygon, in texels, each weighed by the part of it that is inside.
-fn weighed(outline: &Convex, colour: impl Fn(DVec2) -> Rgb) -> Option<Rgb> {
+fn weighed(outline: &Convex, colour: impl Fn(DVec2, &[DVec2]) -> Rgb) -> Option<Rgb> {
     let (mut sum, mut whole) = (Rgb::ZERO, 0.0);
     let [low, high] = bounds(outline);
     for row in low.y.floor() as i64..high.y.ceil() as i64 {
         let strip = between(outline, 1, row as f64);
         let [low, high] = bounds(&strip);
         for column in low.x.floor() as i64..high.x.ceil() as i64 {
-            let part = area(&between(&strip, 0, column as f64)).abs();
-            sum += colour(DVec2::new(column as f64, row as f64)) * part;
-            whole += part;
+            let inside = between(&strip, 0, column as f64);
+            let part = area(&inside).abs();
+            if part > 0.0 {
+                sum += colour(DVec2::new(column as f64, row as f64), &inside) * part;
+                whole += part;
+            }
         }
     }
     (whole > 0.0).then(|| sum / whole)
@@ -91,13 +115,13 @@ mod tests {
         let outline: Convex =
             [[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]].map(DVec2::from).into_iter().collect();
         let colour = |texel: DVec2| Rgb::splat(f64::from(u8::from(texel.x < 4.0)));
-        let by_texel = weighed(&outline, colour).map_or(0.0, |mean| mean.x);
+        let by_texel = weighed(&outline, |texel, _| colour(texel)).map_or(0.0, |mean| mean.x);
         let by_place = sampled(&outline, colour).map_or(0.0, |mean| mean.x);
         assert!((by_texel - 0.75).abs() < 1e-12, "{by_texel}");
         assert!((by_place - 0.75).abs() < 0.02, "{by_place}");
         // The other way round, between texels, and beyond the picture.
         let turned: Convex = outline.iter().rev().map(|&p| p - DVec2::splat(0.25)).collect();
-        let found = weighed(&turned, |texel| colour(texel + 0.25)).map_or(0.0, |mean| mean.x);
+        let found = weighed(&turned, |texel, _| colour(texel + 0.25)).map_or(0.0, |mean| mean.x);
         assert!((found - (1.0 - (3.75_f64 / 8.0).powi(2))).abs() < 1e-12, "{found}");
     }
 }

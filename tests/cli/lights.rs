@@ -200,3 +200,54 @@ fn open_windows_and_turned_files_light_a_room() {
     let [plain, turned] = [lit(&["solve", "room.obj"]), lit(&["solve", "turned.obj", "--up", "z"])];
     assert!(plain > 1.0 && (turned / plain - 1.0).abs() < 1e-6, "{plain} W and {turned} W");
 }
+
+#[test]
+fn emission_in_nits_is_divided_by_683() {
+    let place = room();
+    place.write("room.mtl", "newmtl wall\nKd 0.5\nnewmtl panel\nKd 0.5\nKe 683 683 683\n");
+    let power = |more: &[&str]| {
+        let json = place.run(&solve(more)).done().json();
+        json["energy"]["emitted"][0].as_f64().expect("a number")
+    };
+    let (radiance, nits) = (power(&[]), power(&["--emission", "nits"]));
+    assert!((radiance / nits - 683.0).abs() < 1e-6, "{radiance} {nits}");
+    place.write("c.toml", "emission = \"nits\"\n");
+    assert_eq!(power(&["--config", "c.toml"]), nits);
+}
+
+#[test]
+fn what_was_missing_is_told_before_what_fails_for_it() {
+    let place = room();
+    std::fs::remove_file(place.path("room.mtl")).expect("it was written");
+    for more in [&[][..], &["--emit", "glow=5"], &["--camera", "7", "--sun", "0,60"]] {
+        let outcome = place.run(&solve(more));
+        let words = outcome.stderr.clone();
+        let [missing, failed] = ["material library missing", "radiosity: "].map(|w| words.find(w));
+        assert!(missing.is_some() && missing < failed, "{more:?} {outcome:?}");
+    }
+    let outcome = place.run(&["info", "room.obj", "--emit", "glow=5"]);
+    assert!(outcome.code == Some(2) && outcome.stderr.contains("library missing"), "{outcome:?}");
+}
+
+#[test]
+fn a_dome_round_a_scene_is_told_where_sun_or_sky_are_asked_for() {
+    let place = Place::new();
+    // A pyramid without a floor over a square of 4 m with a plain round it, and a part of another one.
+    let ground = "v -2 0 -2\nv -2 0 2\nv 2 0 2\nv 2 0 -2\nusemtl ground\nf 1 2 3 4\n";
+    let dome = "v -9 -1 -9\nv -9 -1 9\nv 9 -1 9\nv 9 -1 -9\nv 0 9 0\nusemtl backdrop\n\
+                f 5 6 9\nf 6 7 9\nf 7 8 9\n";
+    place.write("open.obj", &format!("{ground}{dome}"));
+    place.write("dome.obj", &format!("{ground}{dome}f 8 5 9\n"));
+    place.write("m.toml", "[backdrop]\nremoved = true\n");
+    let told = |arguments: &[&str]| {
+        let json = place.run(&[&["info", "--json"], arguments].concat()).done().json();
+        json["notes"].to_string().contains("\\\"backdrop\\\" goes round all the rest")
+    };
+    for light in [["--sun", "0,60"], ["--sky", "uniform"]] {
+        assert!(told(&[&["dome.obj"], &light[..]].concat()), "{light:?}");
+        assert!(!told(&[&["dome.obj", "--materials", "m.toml"], &light[..]].concat()), "{light:?}");
+    }
+    assert!(!told(&["dome.obj", "--point-light", "0,1,0=800lm"]));
+    assert!(!told(&["open.obj", "--sky", "uniform"]));
+    assert!(told(&["open.obj", "--sun", "180,60"]) != told(&["open.obj", "--sun", "0,60"]));
+}

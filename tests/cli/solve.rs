@@ -232,3 +232,23 @@ fn a_lightmap_that_cannot_be_is_refused_before_the_work() {
     let written = std::fs::read_dir(place.path(".")).expect("the directory is there").count();
     assert_eq!(written, 1, "files are left behind beside the folder that was there");
 }
+
+#[test]
+fn pictures_count_once_under_the_limit_of_memory() {
+    let place = Place::new();
+    let picture = image::RgbImage::from_pixel(2048, 2048, image::Rgb([99; 3]));
+    picture.save(place.path("a.png")).expect("temporary files can be written");
+    let corners = "v 0 0 0\nv 4 0 0\nv 4 0 -4\nv 0 0 -4\nv 0 2 0\nv 4 2 0\nv 4 2 -4\nv 0 2 -4\nvt 0 0\nvt 1 1\n";
+    let faces = "usemtl a\nf 1/1 2/2 3/1 4/2\nusemtl b\nf 5/1 8/2 7/1 6/2\n";
+    place.write("a.obj", &format!("mtllib a.mtl\n{corners}{faces}"));
+    let maps = "newmtl a\nmap_Kd a.png\nnewmtl b\nKe 1 1 1\nmap_Kd -clamp on a.png\n";
+    place.write("a.mtl", maps);
+    let solve = |limit: &str| place.run(&solve_in(limit));
+    solve("20MB").refused(2, &["max-memory", "23 MB are needed"]);
+    // Twice the picture's 12.6 MB would be too much for this.
+    solve("30MB").done();
+}
+
+fn solve_in(limit: &str) -> Vec<&str> {
+    [&["solve", "a.obj", "-o", "a.ply", "--max-memory", limit], &crate::COARSE[..]].concat()
+}

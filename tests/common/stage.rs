@@ -52,7 +52,7 @@ impl Stage {
     pub fn polygon(&mut self, material: u32, corners: &[DVec3]) -> &mut Face {
         let vertices = corners.iter().map(|&corner| self.position(corner)).collect();
         let index = self.scene.faces.len();
-        self.scene.faces.push(Face { vertices, material, tint: Rgb::ONE, ..Face::default() });
+        self.scene.faces.push(Face { vertices, material, ..Face::default() });
         &mut self.scene.faces[index]
     }
 

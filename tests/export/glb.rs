@@ -139,8 +139,8 @@ fn glb_keeps_pictures_and_how_they_repeat() {
     assert_eq!((texture.width, texture.height), (2, 1));
     assert_eq!((texture.sampler, &texture.alpha), (mesh.textures[0].sampler, &vec![255, 40]));
     assert_eq!(back.parts.iter().map(|part| part.cutoff).collect::<Vec<_>>(), [Some(0.25), None]);
-    for (texel, expected) in texture.texels.iter().zip(&mesh.textures[0].texels) {
-        assert!((Vec3::from(*texel) - Vec3::from(*expected)).length() < 0.005);
+    for (texel, expected) in texture.texels.iter().zip(mesh.textures[0].texels.iter()) {
+        assert!((Vec3::from(texel) - Vec3::from(expected)).length() < 0.005);
     }
 }
 

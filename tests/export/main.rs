@@ -52,7 +52,7 @@ fn a_place_that_cannot_be_written_is_told_beforehand() {
 #[test]
 fn a_failed_write_keeps_the_old_file_and_leaves_nothing_behind() {
     let mut mesh = small_mesh();
-    mesh.textures[0].texels.clear();
+    mesh.textures[0].texels = Default::default();
     in_new_directory(|directory| {
         let path = directory.join("m.glb");
         fs::write(&path, "old").unwrap();

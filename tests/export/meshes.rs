@@ -49,7 +49,7 @@ pub(crate) fn small_mesh() -> TriMesh {
             name: "stripes".to_owned(),
             width: 2,
             height: 1,
-            texels: vec![[1.0, 0.5, 0.0], [0.0, 0.0, 0.0]],
+            texels: vec![[1.0, 0.5, 0.0], [0.0, 0.0, 0.0]].into(),
             alpha: vec![255, 40],
             sampler: Sampler { wrap: [Wrap::Mirror, Wrap::Clamp], nearest: true },
             ..Texture::default()

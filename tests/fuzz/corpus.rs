@@ -70,12 +70,18 @@ fn everything() -> Asset {
     let normals = asset.add(&floats(&[0.1, 0., 1., 0., 0., 1., 0., 0., 1.]), FLOAT, "VEC3", 3);
     let colours = asset.add(&[200; 12], 5121, "VEC4", 3);
     let indices = asset.add(&[0, 1, 2], 5121, "SCALAR", 3);
+    let joints = asset.add(&[0, 1, 0, 0].repeat(3), 5121, "VEC4", 3);
+    let weights = asset.add(&floats(&[0.5, 0.5, 0., 0.].repeat(3)), FLOAT, "VEC4", 3);
+    let moves = asset.add(&floats(&[0., 0.1, 0.].repeat(3)), FLOAT, "VEC3", 3);
+    let inverses =
+        asset.add(&floats(&glam::Mat4::IDENTITY.to_cols_array().repeat(2)), FLOAT, "MAT4", 2);
     asset.json["accessors"][colours]["normalized"] = true.into();
     asset.json["accessors"][0]["sparse"] = json!({"count": 1,
         "indices": {"bufferView": indices, "componentType": 5121}, "values": {"bufferView": 0}});
     let primitive = &mut asset.json["meshes"][0]["primitives"][0];
-    primitive["attributes"] =
-        json!({"POSITION": 0, "NORMAL": normals, "TEXCOORD_0": uvs, "COLOR_0": colours});
+    primitive["attributes"] = json!({"POSITION": 0, "NORMAL": normals, "TEXCOORD_0": uvs, "COLOR_0": colours,
+            "JOINTS_0": joints, "WEIGHTS_0": weights});
+    primitive["targets"] = json!([{"POSITION": moves}]);
     primitive["indices"] = indices.into();
     asset.json["images"] = json!([{"uri": "red.png"}]);
     asset.json["samplers"] = json!([{"wrapS": 33071}]);
@@ -88,7 +94,9 @@ fn everything() -> Asset {
         json!([{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}]);
     asset.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [
         {"type": "spot", "intensity": 100, "range": 5, "spot": {"outerConeAngle": 0.5}}]}});
-    asset.json["nodes"] = json!([{"mesh": 0, "camera": 0, "scale": [1, 2, -3], "children": [1]},
+    asset.json["skins"] = json!([{"joints": [0, 1], "inverseBindMatrices": inverses}]);
+    asset.json["meshes"][0]["weights"] = json!([0.5]);
+    asset.json["nodes"] = json!([{"mesh": 0, "skin": 0, "camera": 0, "scale": [1, 2, -3], "children": [1]},
         {"extensions": {"KHR_lights_punctual": {"light": 0}}}]);
     asset
 }
@@ -121,6 +129,67 @@ fn asset_of(scene: &Scene) -> Asset {
     asset.json["materials"] = json!(materials);
     asset
 }
+
+/// A corner of a room and a lamp, as text and as bytes.
+pub(crate) static STL: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
+    let corners = |lamp: bool| match lamp {
+        false => [[0.0f32, 0., 0.], [4., 0., 0.], [0., 0., 4.]],
+        true => [[1., 2., 1.], [2., 2., 1.], [1., 2., 2.]],
+    };
+    let facet = |lamp: bool| {
+        let vertex = corners(lamp).map(|[x, y, z]| format!("vertex {x} {y} {z}\n")).concat();
+        format!(
+            "solid {lamp}\nfacet normal 0 1 0\nouter loop\n{vertex}endloop\nendfacet\nendsolid\n"
+        )
+    };
+    let mut binary = b"solid \xff by a program".to_vec();
+    binary.resize(80, 0);
+    binary.extend(2u32.to_le_bytes());
+    for lamp in [false, true] {
+        let numbers = [0.0; 3].into_iter().chain(corners(lamp).into_iter().flatten());
+        binary.extend(numbers.flat_map(f32::to_le_bytes).chain([0, 0]));
+    }
+    vec![format!("{}{}", facet(false), facet(true)).into_bytes(), binary]
+});
+
+/// A folded sheet with colours and normals, a table more and a list more, in each encoding.
+pub(crate) static PLY: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
+    let header = |format: &str| {
+        format!(
+            "ply\nformat {format} 1.0\ncomment TextureFile a.png\nelement vertex 5\nproperty float x\nproperty float y\n\
+             property float z\nproperty float ny\nproperty float nx\nproperty float nz\nproperty uchar red\n\
+             property uchar green\nproperty uchar blue\nelement edge 1\nproperty int a\nelement face 2\n\
+             property list uchar uchar vertex_indices\nproperty list uchar float weights\nend_header\n"
+        )
+    };
+    let places = [[0.0f32, 0., 0.], [0., 0., 2.], [2., 0., 2.], [2., 0., 0.], [2., 1., 0.]];
+    let faces: [&[u8]; 2] = [&[0, 1, 2, 3], &[2, 4, 3]];
+    let mut text = header("ascii");
+    for [x, y, z] in places {
+        text += &format!("{x} {y} {z} 1 0 0.1 10 200 {}\n", x * 100.0);
+    }
+    text += "7\n4 0 1 2 3 1 0.5\n3 2 4 3 0\n";
+    let binary = |format: &str, of: fn(f32) -> [u8; 4]| {
+        let mut bytes = header(format).into_bytes();
+        for place in places {
+            bytes
+                .extend(place.into_iter().chain([1.0, 0.0, 0.1]).flat_map(of).chain([10, 200, 90]));
+        }
+        bytes.extend([0; 4]);
+        for face in faces {
+            bytes.push(face.len() as u8);
+            bytes.extend(face);
+            bytes.push(1);
+            bytes.extend(of(0.5));
+        }
+        bytes
+    };
+    vec![
+        text.into_bytes(),
+        binary("binary_little_endian", f32::to_le_bytes),
+        binary("binary_big_endian", f32::to_be_bytes),
+    ]
+});
 
 /// Luminaires of each kind of symmetry and version.
 pub(crate) const IES: [&str; 4] = [

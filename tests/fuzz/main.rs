@@ -55,6 +55,8 @@ tests! {
     bent_mtl_files: MTL;
     bent_gltf_files: GLTF;
     bent_glb_files: GLB;
+    bent_stl_files: STL;
+    bent_ply_files: PLY;
     bent_configurations: TOML;
     bent_luminaires: IES;
     bent_scenes_are_solved: SOLVED;

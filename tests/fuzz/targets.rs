@@ -24,6 +24,8 @@ pub(crate) const OBJ: Target = Target { name: "obj", quick: 600, files: obj, che
 pub(crate) const MTL: Target = Target { name: "mtl", quick: 300, files: mtl, check: load };
 pub(crate) const GLTF: Target = Target { name: "gltf", quick: 600, files: gltf, check: load };
 pub(crate) const GLB: Target = Target { name: "glb", quick: 400, files: glb, check: load };
+pub(crate) const STL: Target = Target { name: "stl", quick: 400, files: stl, check: load };
+pub(crate) const PLY: Target = Target { name: "ply", quick: 600, files: ply, check: load };
 pub(crate) const TOML: Target = Target { name: "toml", quick: 60, files: toml, check: configure };
 pub(crate) const IES: Target = Target { name: "ies", quick: 600, files: ies, check: shine };
 pub(crate) const SOLVED: Target = Target { name: "solved", quick: 60, files: any, check: light };
@@ -94,6 +96,28 @@ fn glb(rng: &mut Rng) -> Files {
     with_picture(vec![("a.glb".to_owned(), glb)])
 }
 
+/// Text is bent by its words, what is binary by its bytes.
+fn bent(rng: &mut Rng, seeds: &[Vec<u8>]) -> Vec<u8> {
+    let mut file = seeds[rng.usize(..seeds.len())].clone();
+    let is_text = std::str::from_utf8(&file).is_ok();
+    for _ in 0..often(rng) {
+        if is_text {
+            text(rng, &mut file);
+        } else {
+            bytes(rng, &mut file);
+        }
+    }
+    file
+}
+
+fn stl(rng: &mut Rng) -> Files {
+    vec![("a.stl".to_owned(), bent(rng, &corpus::STL))]
+}
+
+fn ply(rng: &mut Rng) -> Files {
+    vec![("a.ply".to_owned(), bent(rng, &corpus::PLY))]
+}
+
 fn toml(rng: &mut Rng) -> Files {
     let mut config = corpus::TOML.as_bytes().to_vec();
     for _ in 0..often(rng) {
@@ -114,9 +138,11 @@ fn ies(rng: &mut Rng) -> Files {
 }
 
 fn any(rng: &mut Rng) -> Files {
-    match rng.u8(..6) {
+    match rng.u8(..8) {
         0 => gltf(rng),
         1 => glb(rng),
+        2 => stl(rng),
+        3 => ply(rng),
         _ => obj(rng),
     }
 }
@@ -139,7 +165,9 @@ fn load(folder: &Folder, name: &str) {
     for face in &scene.faces {
         let count = face.vertices.len();
         assert!(count >= 3 && face.vertices.iter().all(|&v| (v as usize) < scene.positions.len()));
-        assert!([0, count].contains(&face.normals.len()) && [0, count].contains(&face.uvs.len()));
+        for carried in [face.normals.len(), face.uvs.len(), face.tints.len()] {
+            assert!(carried == 0 || carried == count);
+        }
     }
     if scene.faces.len() <= MOST_FACES {
         let surfaces = surfaces_of(&scene);

@@ -152,7 +152,8 @@ fn what_is_seen_is_albedo_times_texel_plus_emission() {
     let map = baked(lit, &atlas);
     let (mut error, mut all) = (0.0, 0.0);
     for part in &atlas.mesh.parts {
-        let emission = lit.surfaces.materials[part.material as usize].emission;
+        let material = &lit.surfaces.materials[part.material as usize];
+        let (reflectance, emission) = (material.reflectance, material.emission);
         for triangle in &atlas.mesh.triangles[part.triangles.clone()] {
             let centre = triangle.map(|v| atlas.mesh.light_uvs[v as usize]).iter().sum();
             let texel = lookup(&map.texels, 1024, texel_of(&map, centre) / 3.0).as_dvec3();
@@ -160,7 +161,7 @@ fn what_is_seen_is_albedo_times_texel_plus_emission() {
             let place = places.iter().sum::<DVec3>() / 3.0;
             let normal = (places[1] - places[0]).cross(places[2] - places[0]).normalize();
             let Some(radiosity) = radiosity_at(lit, place, normal) else { continue };
-            let seen = part.reflectance * texel + emission;
+            let seen = reflectance * texel + emission;
             error += (seen - radiosity / PI).length();
             all += (radiosity / PI).length();
         }

@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_1_SQRT_2;
 use std::f64::consts::FRAC_PI_2;
 
 use glam::{DVec2, DVec3, Vec3};
-use radiosity::scene::{Light, Sampler, Scene, Wrap};
+use radiosity::scene::{EmissionUnit, Light, LoadOptions, Sampler, Scene, Wrap, load};
 use serde_json::{Value, json};
 
 use crate::asset::{Asset, FLOAT, floats};
@@ -80,7 +80,7 @@ fn sparse_values_replace_their_base() {
 }
 
 #[test]
-fn vertex_colours_of_every_encoding_tint_faces_by_their_mean() {
+fn vertex_colours_of_every_encoding_tint_corners() {
     let full = f32::from(51u8) / 255.0;
     let encodings = [
         (FLOAT, "VEC3", false, floats(&[full; 9])),
@@ -91,9 +91,21 @@ fn vertex_colours_of_every_encoding_tint_faces_by_their_mean() {
     ];
     for (component, type_, normalized, data) in encodings {
         let asset = Asset::triangle().attribute("COLOR_0", &data, component, type_);
-        let tint = asset.set("/accessors/1/normalized", json!(normalized)).load().faces[0].tint;
-        assert!((tint - DVec3::splat(0.2)).length() < 1e-7, "{component} {type_}: {tint}");
+        let scene = asset.set("/accessors/1/normalized", json!(normalized)).load();
+        let tints = &scene.faces[0].tints;
+        let right = |tint: &Vec3| (tint - Vec3::splat(0.2)).length() < 1e-6;
+        assert!(tints.len() == 3 && tints.iter().all(right), "{component} {type_}: {tints:?}");
+        assert!(scene.notes.is_empty(), "{:?}", scene.notes);
     }
+}
+
+#[test]
+fn transparent_vertex_colours_are_told_where_they_count() {
+    let clear = floats(&[1., 1., 1., 0.5, 1., 1., 1., 1., 1., 1., 1., 1.]);
+    let asset = || Asset::triangle().attribute("COLOR_0", &clear, FLOAT, "VEC4");
+    let told = |scene: Scene| scene.notes.iter().any(|note| note.contains("vertex colours"));
+    assert!(!told(asset().load()));
+    assert!(told(asset().set("/materials/0/alphaMode", json!("BLEND")).load()));
 }
 
 #[test]
@@ -152,10 +164,10 @@ fn pictures_are_laid_on_by_the_chosen_coordinates_and_their_transform() {
     for (uv, wanted) in scene.faces[0].uvs.iter().zip(expected) {
         assert!((uv - wanted).length() < 1e-6, "{uv} {wanted}");
     }
-    assert_eq!(scene.textures[0].texels, [[1.0, 0.0, 0.0]]);
+    assert_eq!(scene.textures[0].texels.iter().collect::<Vec<_>>(), [[1.0, 0.0, 0.0]]);
     let sampler = Sampler { wrap: [Wrap::Clamp, Wrap::Mirror], nearest: true };
     assert_eq!(scene.textures[0].sampler, sampler);
-    assert_eq!(scene.textures[0].encoded, red_png());
+    assert_eq!(*scene.textures[0].encoded, red_png());
 }
 
 #[test]
@@ -226,8 +238,7 @@ fn lights_come_in_watts_and_follow_their_nodes() {
         .set("/nodes", json!([{"mesh": 0}, node(0), node(1), node(2)]))
         .load();
     let at = DVec3::new(1.0, 2.0, 3.0);
-    let point =
-        Light::Point { position: at, intensity: DVec3::new(1.0, 0.5, 0.0), range: Some(4.0) };
+    let point = Light::Point { position: at, intensity: DVec3::new(1.0, 0.5, 0.0) };
     assert_eq!(scene.lights[0].light, point);
     let Light::Spot { direction, intensity, inner_angle, outer_angle, .. } = scene.lights[1].light
     else {
@@ -239,6 +250,28 @@ fn lights_come_in_watts_and_follow_their_nodes() {
     let Light::Directional { irradiance, .. } = scene.lights[2].light else { panic!() };
     assert_eq!(irradiance, DVec3::splat(100.0));
     assert!(scene.is_lit());
+}
+
+#[test]
+fn ranges_and_units_of_lights_are_told_where_they_matter() {
+    let lit = |range: f64, emission: f64| {
+        let lights = json!([{"type": "point", "intensity": 683, "name": "bulb", "range": range}]);
+        let node = json!({"extensions": {"KHR_lights_punctual": {"light": 0}}});
+        Asset::triangle()
+            .set("/extensions", json!({"KHR_lights_punctual": {"lights": lights}}))
+            .set("/nodes", json!([{"mesh": 0}, node]))
+            .set("/materials/0/emissiveFactor", json!([emission, emission, emission]))
+    };
+    let told = |scene: Scene, words: &str| scene.notes.iter().any(|note| note.contains(words));
+    assert!(told(lit(1.2, 0.0).load(), "range of \"bulb\""));
+    assert!(!told(lit(1.5, 0.0).load(), "range"));
+    assert!(told(lit(9.0, 0.5).load(), "--emission nits"));
+    assert!(!told(lit(9.0, 0.0).load(), "--emission nits"));
+    let options = LoadOptions { emission: EmissionUnit::Nits, ..LoadOptions::default() };
+    let folder = Folder::new().with("a.gltf", lit(9.0, 0.683).text());
+    let scene = load(&folder.path("a.gltf"), &options).unwrap();
+    assert!((scene.materials[0].emission.x - 1e-3).abs() < 1e-9, "{:?}", scene.materials[0]);
+    assert!(!told(scene, "--emission nits"));
 }
 
 #[test]

@@ -2,15 +2,20 @@
 
 mod asset;
 mod changed;
+mod colours;
 mod emission;
 mod folder;
 mod found;
 mod gltf;
 mod ies;
 mod mutated;
+mod names;
 mod obj;
+mod ply;
+mod pose;
 mod refused;
 mod sides;
+mod stl;
 mod up;
 
 use folder::{Folder, red_png};
@@ -18,7 +23,9 @@ use folder::{Folder, red_png};
 #[test]
 fn unknown_endings_and_missing_files_are_named() {
     let folder = Folder::new().with("a.xyz", "");
-    assert!(folder.load("a.xyz").unwrap_err().to_string().contains(".obj, .gltf, .glb"));
+    assert!(
+        folder.load("a.xyz").unwrap_err().to_string().contains(".obj, .gltf, .glb, .stl, .ply")
+    );
     assert!(folder.load("none.obj").unwrap_err().to_string().contains("none.obj"));
 }
 

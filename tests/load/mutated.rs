@@ -127,7 +127,8 @@ fn assert_sound(scene: &Scene) {
         assert!([0, count].contains(&face.normals.len()) && [0, count].contains(&face.uvs.len()));
         assert!(face.normals.iter().all(|normal| normal.is_normalized()));
         assert!(face.uvs.iter().all(|uv| uv.is_finite()));
-        assert!(face.tint.min_element() >= 0.0 && face.tint.max_element() <= 1.0);
+        let is_share = |tint: &glam::Vec3| tint.min_element() >= 0.0 && tint.max_element() <= 1.0;
+        assert!(face.tints.iter().all(is_share));
         assert!((face.material as usize) < scene.materials.len());
         assert!((face.object as usize) < scene.objects.len());
     }
@@ -141,7 +142,7 @@ fn assert_sound(scene: &Scene) {
     }
     for texture in &scene.textures {
         assert_eq!(texture.texels.len(), texture.width as usize * texture.height as usize);
-        assert!(texture.texels.iter().flatten().all(|x| x.is_finite() && *x >= 0.0));
+        assert!(texture.texels.iter().flatten().all(|x| x.is_finite() && x >= 0.0));
     }
     scene.lights.iter().for_each(|named| assert_sound_light(&named.light));
     for camera in &scene.cameras {

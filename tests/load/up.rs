@@ -2,7 +2,8 @@
 
 use glam::{DVec3, Vec3};
 use radiosity::Scene;
-use radiosity::scene::{LoadOptions, Up, load};
+use radiosity::scene::{Camera, Light, LoadOptions, NamedLight, Up, load};
+use serde_json::json;
 
 use crate::Folder;
 use crate::asset::Asset;
@@ -25,11 +26,36 @@ fn what_is_up_in_the_file_is_up_in_the_scene_and_its_north_is_north() {
 }
 
 #[test]
-fn a_gltf_file_has_its_own_up() {
-    let folder = Folder::new().with("a.gltf", Asset::triangle().text());
-    let options = LoadOptions { up: Up::Z, ..LoadOptions::default() };
-    let message = load(&folder.path("a.gltf"), &options).unwrap_err().to_string();
-    assert!(message.contains("Y up by definition"), "{message}");
+fn units_and_axes_are_those_of_every_format() {
+    let stl = "solid a\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
+    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    let light = json!({"KHR_lights_punctual": {"lights": [{"type": "spot"}]}});
+    let here = json!({"translation": [0, 3, 4], "camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}});
+    let gltf = Asset::triangle()
+        .set("/extensions", light)
+        .set("/cameras", json!([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}]))
+        .set("/nodes", json!([{"mesh": 0}, here]));
+    let folder = Folder::new()
+        .with("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        .with("a.stl", stl)
+        .with("a.ply", ply)
+        .with("a.gltf", gltf.text());
+    let options = LoadOptions { up: Up::Z, metres_per_unit: 0.5, ..LoadOptions::default() };
+    for name in ["a.obj", "a.stl", "a.ply", "a.gltf"] {
+        let scene = load(&folder.path(name), &options).unwrap();
+        let expected = [[0., 0., 0.], [0.5, 0., 0.], [0., 0., -0.5]].map(DVec3::from);
+        assert_eq!(scene.positions, expected, "{name}");
+    }
+    let scene = load(&folder.path("a.gltf"), &options).unwrap();
+    let [NamedLight { light: Light::Spot { position, direction, .. }, .. }] = scene.lights[..]
+    else {
+        panic!("{:?}", scene.lights)
+    };
+    assert_eq!((position, direction), (DVec3::new(0.0, 2.0, -1.5), DVec3::NEG_Y));
+    let [Camera { eye, target, up, .. }] = scene.cameras[..] else { panic!("{:?}", scene.cameras) };
+    assert_eq!((eye, up), (position, DVec3::NEG_Z));
+    assert_eq!((target - eye).normalize(), DVec3::NEG_Y);
 }
 
 #[test]

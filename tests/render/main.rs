@@ -193,7 +193,7 @@ fn a_texture_replaces_its_mean() {
     mesh.textures.push(Texture {
         width: 2,
         height: 1,
-        texels: vec![[0.0; 3], [1.0; 3]],
+        texels: vec![[0.0; 3], [1.0; 3]].into(),
         sampler: Sampler { wrap: [Wrap::Clamp; 2], nearest: false },
         ..Texture::default()
     });
@@ -210,7 +210,7 @@ fn a_picture_of_one_grey_is_shown_as_a_plain_surface_and_darker_texels_in_propor
     mesh.textures.push(Texture {
         width: 2,
         height: 1,
-        texels: vec![[0.1; 3], [0.2; 3]],
+        texels: vec![[0.1; 3], [0.2; 3]].into(),
         sampler: Sampler { wrap: [Wrap::Clamp; 2], nearest: false },
         ..Texture::default()
     });
@@ -231,7 +231,7 @@ fn a_ray_goes_through_the_holes_of_a_cut_out() {
     mesh.textures.push(Texture {
         width: 2,
         height: 1,
-        texels: vec![[1.0; 3]; 2],
+        texels: vec![[1.0; 3]; 2].into(),
         alpha: vec![100, 200],
         sampler: Sampler { wrap: [Wrap::Clamp; 2], nearest: true },
         ..Texture::default()

@@ -156,8 +156,7 @@ fn point_light(text: &str) -> Result<(Light, bool), String> {
         _ => (amount, 1.0),
     };
     let intensity = Rgb::splat(positive(amount.trim_end()).ok_or(WANTED)? * unit);
-    let light = Light::Point { position: vector(position)?, intensity, range: None };
-    Ok((light, unit != 1.0))
+    Ok((Light::Point { position: vector(position)?, intensity }, unit != 1.0))
 }
 
 /// `lamp.ies@1,2,3,90`.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use radiosity::scene::{LoadOptions, Sides, Up, settle_sides};
+use radiosity::scene::{EmissionUnit, LoadOptions, Sides, Up, settle_sides};
 use radiosity::{Error, Result, Scene, load};
 
 use super::lights::{HINT, LightOptions};
@@ -12,23 +12,30 @@ use super::values;
 /// The scene and what its file leaves open.
 #[derive(Debug, Args)]
 pub(crate) struct SceneOptions {
-    /// The scene: .obj (with its .mtl), .gltf or .glb
+    /// The scene: .obj (with its .mtl), .gltf, .glb, .stl or .ply
     #[arg(value_name = "SCENE")]
     pub(crate) path: PathBuf,
 
-    /// Unit of an OBJ file's coordinates: m, cm, mm, in, ft, or metres per unit
+    /// Unit of the file's coordinates: m, cm, mm, in, ft, or metres per unit
     ///
-    /// glTF is in metres always. `radiosity info` prints the size in metres, which shows a wrong guess.
+    /// glTF is in metres by definition; not all exporters know. `radiosity info` prints the size in metres, which shows a wrong guess.
     #[arg(long, value_name = "UNIT", default_value = "m", value_parser = values::units)]
     #[arg(help_heading = "Reading")]
     units: f64,
 
-    /// Which axis of an OBJ file points up
+    /// Which axis of the file points up
     ///
     /// With `z`, x,y,z of the file become x,z,-y when it is read: its +Y is -Z then, which is north for --sun. Lamps,
-    /// cameras and grids are given in the coordinates after that, with Y up. glTF has Y up always.
+    /// cameras and grids are given in the coordinates after that, with Y up. glTF has Y up by definition.
     #[arg(long, value_name = "AXIS", value_enum, default_value_t = Axis::Y, help_heading = "Reading")]
     up: Axis,
+
+    /// What the file's emission is: radiance in W/(m² sr), or cd/m² (nits), which are divided by 683
+    ///
+    /// Of `Ke` and of glTF emission. The text of glTF says cd/m², Blender writes W/(m² sr).
+    #[arg(long, value_name = "UNIT", value_enum, default_value_t = Emission::Radiance)]
+    #[arg(help_heading = "Reading")]
+    emission: Emission,
 
     /// Which sides of surfaces reflect and emit
     ///
@@ -48,6 +55,14 @@ enum Axis {
     Y,
     /// As in Blender, and in most programs for buildings
     Z,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Emission {
+    /// W/(m² sr)
+    Radiance,
+    /// cd/m²
+    Nits,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -78,22 +93,32 @@ impl SceneOptions {
         [self.path.clone()].into_iter().chain(self.lights.files()).collect()
     }
 
-    /// The scene, with what is added to it.
-    pub(crate) fn load(&self) -> Result<Scene> {
+    /// The scene, with what is added to it. Its notes are told, above all where something could not be added.
+    pub(crate) fn load(&self, tell: impl Fn(&str)) -> Result<Scene> {
+        let (scene, added) = self.read()?;
+        scene.notes.iter().for_each(|note| tell(&format!("note: {note}")));
+        added.map(|()| scene)
+    }
+
+    /// The scene, and whether all could be added to it.
+    pub(crate) fn read(&self) -> Result<(Scene, Result<()>)> {
         let options = self.load_options();
         let mut scene = load(&self.path, &options)?;
         let was_dark = !scene.is_lit();
-        self.lights.apply(&mut scene)?;
+        if let Err(error) = self.lights.apply(&mut scene) {
+            return Ok((scene, Err(error)));
+        }
         // Only light tells whether a room was modelled inside out; lamps that are added face as they are told.
         if was_dark && options.two_sided == Sides::Auto && !self.lights.adds_faces() {
             settle_sides(&mut scene, Sides::Auto);
         }
-        Ok(scene)
+        scene.note_backdrop();
+        Ok((scene, Ok(())))
     }
 
     /// The same, if there is light in it.
-    pub(crate) fn load_lit(&self) -> Result<Scene> {
-        let scene = self.load()?;
+    pub(crate) fn load_lit(&self, tell: impl Fn(&str)) -> Result<Scene> {
+        let scene = self.load(tell)?;
         if scene.is_lit() {
             return Ok(scene);
         }
@@ -114,6 +139,10 @@ impl SceneOptions {
             Axis::Y => Up::Y,
             Axis::Z => Up::Z,
         };
-        LoadOptions { metres_per_unit: self.units, up, two_sided }
+        let emission = match self.emission {
+            Emission::Radiance => EmissionUnit::Radiance,
+            Emission::Nits => EmissionUnit::Nits,
+        };
+        LoadOptions { metres_per_unit: self.units, up, emission, two_sided }
     }
 }

@@ -80,7 +80,7 @@ fn material(
     };
     let (base_color_texture, emissive_texture) =
         (texture(own.texture)?, texture(own.emission_texture)?);
-    let [r, g, b] = singles(part.reflectance);
+    let [r, g, b] = singles(own.reflectance);
     let strength = own.emission.max_element().max(1.0);
     let beyond_one = EmissiveStrength {
         emissive_strength: EmissiveStrengthFactor(strength.min(f64::from(f32::MAX)) as f32),
@@ -124,12 +124,16 @@ fn primitive(
     let uvs: Vec<_> = mesh.uvs[range.clone()].iter().map(|uv| uv.to_array()).collect();
     let light_uvs: Vec<_> = mesh.light_uvs[range.clone()].iter().map(|uv| uv.to_array()).collect();
     // The first coordinates are there without a picture, too: a second set alone is against the format's rules.
-    let attributes = BTreeMap::from([
+    let mut attributes = BTreeMap::from([
         (Semantic::Positions, document.positions(&positions)),
         (Semantic::Normals, document.vectors(&normals)),
         (Semantic::TexCoords(0), document.vectors(&uvs)),
         (Semantic::TexCoords(1), document.vectors(&light_uvs)),
     ]);
+    let tints: Vec<_> = mesh.tints[range.clone()].iter().map(|tint| tint.to_array()).collect();
+    if tints.iter().any(|tint| *tint != [1.0; 3]) {
+        attributes.insert(Semantic::Colors(0), document.vectors(&tints));
+    }
     Primitive {
         attributes: attributes.into_iter().map(|(key, to)| (Checked::Valid(key), to)).collect(),
         indices: Some(document.indices(&indices, range.len())),

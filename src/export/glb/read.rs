@@ -193,7 +193,7 @@ fn white(texture: &gltf_json::Texture) -> Option<f64> {
 
 /// A picture as it was before it was brightened; its file is no longer it.
 fn darkened(picture: Texture, white: f64) -> Texture {
-    let darker = |texel: &[f32; 3]| texel.map(|x| (f64::from(x) * white) as f32);
+    let darker = |texel: [f32; 3]| texel.map(|x| (f64::from(x) * white) as f32);
     let texels = picture.texels.iter().map(darker).collect();
-    Texture { texels, encoded: Vec::new(), ..picture }
+    Texture { texels, encoded: [].into(), ..picture }
 }

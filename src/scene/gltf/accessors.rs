@@ -17,6 +17,9 @@ pub(super) enum Purpose {
     Normal,
     TexCoord,
     Colour,
+    Joints,
+    Weights,
+    InverseBind,
 }
 
 impl Purpose {
@@ -26,6 +29,9 @@ impl Purpose {
             Self::Normal => "NORMAL",
             Self::TexCoord => "TEXCOORD",
             Self::Colour => "COLOR",
+            Self::Joints => "JOINTS",
+            Self::Weights => "WEIGHTS",
+            Self::InverseBind => "inverseBindMatrices",
         }
     }
 
@@ -34,6 +40,8 @@ impl Purpose {
             Self::Position | Self::Normal => type_ == Type::Vec3,
             Self::TexCoord => type_ == Type::Vec2,
             Self::Colour => matches!(type_, Type::Vec3 | Type::Vec4),
+            Self::Joints | Self::Weights => type_ == Type::Vec4,
+            Self::InverseBind => type_ == Type::Mat4,
         }
     }
 
@@ -41,9 +49,10 @@ impl Purpose {
     fn admits_component(self, component: ComponentType, normalized: bool, quantized: bool) -> bool {
         use ComponentType::{F32, I8, I16, U8, U16, U32};
         match (self, component) {
+            (Self::Joints, _) => matches!(component, U8 | U16) && !normalized,
             (_, F32) => !normalized,
             (_, U32) => false,
-            (Self::Colour | Self::TexCoord, U8 | U16) if normalized => true,
+            (Self::Colour | Self::TexCoord | Self::Weights, U8 | U16) if normalized => true,
             (Self::Normal, I8 | I16) => normalized && quantized,
             (Self::Position | Self::TexCoord, I8 | I16 | U8 | U16) => quantized,
             _ => false,

@@ -10,6 +10,7 @@ use data_url::DataUrl;
 use percent_encoding::percent_decode_str;
 
 use crate::error::{Error, Result};
+use crate::scene::named::find;
 
 /// Required extensions that are read, or whose absence leaves diffuse light as it is.
 const READABLE: [&str; 6] = [
@@ -33,14 +34,14 @@ pub(super) struct File {
 }
 
 impl File {
-    /// Reads the file and all buffers.
-    pub(super) fn open(path: &Path) -> Result<Self> {
+    /// Reads the file and all buffers; which files were taken instead of others is noted.
+    pub(super) fn open(path: &Path, notes: &mut Vec<String>) -> Result<Self> {
         let bytes = fs::read(path).map_err(Error::io(path))?;
         let (root, mut blob) = parse(path, &bytes)?;
         let mut file = Self { path: path.to_owned(), root, buffers: Vec::new() };
         file.refuse_unreadable_extensions()?;
         for index in 0..file.root.buffers.len() {
-            let data = file.buffer(index, &mut blob)?;
+            let data = file.buffer(index, &mut blob, notes)?;
             file.buffers.push(data);
         }
         Ok(file)
@@ -78,35 +79,34 @@ impl File {
         Ok((bytes.ok_or_else(outside)?, view.byte_stride.map(|stride| stride.0)))
     }
 
-    /// The bytes behind a URI: `data:`, or a file beside this one.
-    pub(super) fn resource(&self, uri: &str) -> Result<Vec<u8>> {
+    /// The bytes behind a URI: `data:`, or a file beside this one; which one was taken instead of another is noted.
+    pub(super) fn resource(&self, uri: &str, notes: &mut Vec<String>) -> Result<Vec<u8>> {
         if uri.starts_with("data:") {
             let url = DataUrl::process(uri).map_err(|_| self.fail("malformed data: URI"))?;
             let decoded = url.decode_to_vec();
             return Ok(decoded.map_err(|error| self.fail(format!("data: URI: {error}")))?.0);
         }
-        if uri.contains("://") {
+        if uri.contains("://") && !uri.to_ascii_lowercase().starts_with("file:") {
             return Err(
                 self.fail(format!("\"{uri}\": only data: URIs and relative paths are read"))
             );
         }
-        let [path, others @ ..] = self
-            .beside(uri)
-            .ok_or_else(|| self.fail(format!("\"{uri}\" is not UTF-8 when decoded")))?;
-        others
-            .iter()
-            .fold(fs::read(&path), |read, other| read.or_else(|e| fs::read(other).map_err(|_| e)))
-            .map_err(Error::io(&path))
+        let name = percent_decode_str(uri).decode_utf8();
+        let name = name.map_err(|_| self.fail(format!("\"{uri}\" is not UTF-8 when decoded")))?;
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        // Exporters also write names as they are, with escapes in them.
+        let as_written = Some(folder.join(uri)).filter(|path| path.is_file());
+        let path = as_written.or_else(|| find(folder, &name, notes));
+        let path = path.unwrap_or_else(|| folder.join(name.as_ref()));
+        fs::read(&path).map_err(Error::io(&path))
     }
 
-    /// Where the file behind a relative URI may be; `None` if its name is no text.
-    ///
-    /// Exporters also write names as they are, with escapes or backslashes in them.
-    fn beside(&self, uri: &str) -> Option<[PathBuf; 3]> {
-        let name = percent_decode_str(uri).decode_utf8().ok()?;
+    /// Where the file behind a relative URI may be.
+    fn beside(&self, uri: &str) -> Vec<PathBuf> {
         let folder = self.path.parent().unwrap_or(Path::new(""));
-        let names = [name.as_ref(), uri, &name.replace('\\', "/")];
-        Some(names.map(|name| folder.join(name)))
+        let name = percent_decode_str(uri).decode_utf8().unwrap_or_default();
+        let found = find(folder, &name, &mut Vec::new());
+        [folder.join(uri), folder.join(name.as_ref())].into_iter().chain(found).collect()
     }
 
     /// The file itself, and all places of those that it refers to.
@@ -114,14 +114,19 @@ impl File {
         let buffers = self.root.buffers.iter().filter_map(|buffer| buffer.uri.as_deref());
         let images = self.root.images.iter().filter_map(|image| image.uri.as_deref());
         let relative = buffers.chain(images).filter(|uri| !uri.starts_with("data:"));
-        let beside = relative.filter_map(|uri| self.beside(uri)).flatten();
+        let beside = relative.flat_map(|uri| self.beside(uri));
         [self.path.clone()].into_iter().chain(beside).collect()
     }
 
-    fn buffer(&self, index: usize, blob: &mut Option<Vec<u8>>) -> Result<Option<Vec<u8>>> {
+    fn buffer(
+        &self,
+        index: usize,
+        blob: &mut Option<Vec<u8>>,
+        notes: &mut Vec<String>,
+    ) -> Result<Option<Vec<u8>>> {
         let buffer = &self.root.buffers[index];
         let data = match &buffer.uri {
-            Some(uri) => Some(self.resource(uri)?),
+            Some(uri) => Some(self.resource(uri, notes)?),
             None if index == 0 => blob.take(),
             None => None,
         };

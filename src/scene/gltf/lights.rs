@@ -12,7 +12,8 @@ use super::Import;
 use crate::colour::LUMENS_PER_WATT;
 use crate::error::Result;
 use crate::scene::load::{MAX_RADIANCE, tamed};
-use crate::scene::{Camera, Light, NamedLight};
+use crate::scene::notes::listed;
+use crate::scene::{Camera, EmissionUnit, Light, NamedLight};
 
 impl Import<'_> {
     /// Adds a perspective camera that looks along its node's -Z.
@@ -51,19 +52,45 @@ impl Import<'_> {
             self.scene.notes.push("a light without direction left out".to_owned());
             return Ok(());
         };
-        let range = light.range.map(f64::from).filter(|range| range.is_finite() && *range > 0.0);
+        let range = light.range.map_or(f64::INFINITY, f64::from);
         let named = light.name.clone().or_else(|| node.name.clone());
         let light = match kind {
             Type::Directional => Light::Directional { direction, irradiance: intensity },
-            Type::Point => Light::Point { position, intensity, range },
+            Type::Point => Light::Point { position, intensity },
             Type::Spot => {
                 let (inner_angle, outer_angle) = cone(light);
-                Light::Spot { position, direction, intensity, inner_angle, outer_angle, range }
+                Light::Spot { position, direction, intensity, inner_angle, outer_angle }
             }
         };
         let name = named.unwrap_or_else(|| light.kind().to_owned());
+        if light.position().is_some() && range > 0.0 {
+            self.ranges.push((name.clone(), position, range));
+        }
         self.scene.lights.push(NamedLight { name, light });
         Ok(())
+    }
+
+    /// Tells what lamps of the file mean that is not taken at its word.
+    pub(super) fn note_lights(&mut self, emission: EmissionUnit) {
+        let Some((low, high)) = self.scene.bounds() else { return };
+        let reach = |place: DVec3| (low - place).abs().max((high - place).abs()).length();
+        let cut = self.ranges.iter().filter(|(_, place, range)| *range < reach(*place));
+        let cut: Vec<String> = cut.map(|(name, ..)| name.clone()).collect();
+        if !cut.is_empty() {
+            self.scene.notes.push(format!(
+                "the range of {} is not taken for an end of its light, which falls off by the square of the distance",
+                listed(&cut)
+            ));
+        }
+        if emission == EmissionUnit::Radiance
+            && !self.scene.lights.is_empty()
+            && self.scene.emitters().next().is_some()
+        {
+            self.scene.notes.push(
+                "emission of materials is taken as W/(m² sr), beside lights in candela or lux: if it is in cd/m², use --emission nits"
+                    .to_owned(),
+            );
+        }
     }
 }
 

@@ -15,7 +15,7 @@ use crate::scene::notes::listed;
 use crate::scene::texture::{
     Picture, UvMapping, attach_pictures, decode, note_missing, without_picture,
 };
-use crate::scene::{Material, Sampler, Scene, Wrap};
+use crate::scene::{Material, Sampler, Scene, Texture, Wrap};
 
 /// What materials say that does not go into the scene's.
 #[derive(Default)]
@@ -28,7 +28,13 @@ pub(super) struct Known {
 
 /// Reads all materials into `scene`.
 pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Known> {
-    let mut reader = Reader { file, scene, pictures: HashMap::new(), pictureless: Vec::new() };
+    let mut reader = Reader {
+        file,
+        scene,
+        pictures: HashMap::new(),
+        decoded: HashMap::new(),
+        pictureless: Vec::new(),
+    };
     let mut known = Known::default();
     let (mut metals, mut clear) = (Vec::new(), Vec::new());
     let (mut dim, mut cut_out) = (Vec::new(), Vec::new());
@@ -106,6 +112,8 @@ struct Reader<'a> {
     scene: &'a mut Scene,
     /// Index into the scene's textures by glTF image and sampler; `None` for unreadable ones.
     pictures: HashMap<(usize, Sampler), Option<u32>>,
+    /// The first of the textures made of a glTF image.
+    decoded: HashMap<usize, u32>,
     /// Names of the materials whose picture is missing and who say nothing else.
     pictureless: Vec<String>,
 }
@@ -176,14 +184,19 @@ impl Reader<'_> {
 
     /// Reads a picture into the scene; an unreadable one costs a note, not the scene.
     fn decoded(&mut self, index: Index<json::Image>, sampler: Sampler) -> Option<u32> {
+        if let Some(&known) = self.decoded.get(&index.value()) {
+            return Some(self.scene.add_texture_like(known, sampler));
+        }
         let image = self.file.root.get(index)?;
         let uri = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
         let name = image.name.as_deref().or(uri);
         let name = name.map_or_else(|| format!("image {index}"), str::to_owned);
-        match self.encoded(image).and_then(|bytes| decode(&name, &bytes, sampler)) {
+        match self.encoded(image).and_then(|bytes| decode(uri.unwrap_or(&name), &bytes, sampler)) {
             Ok(picture) => {
-                self.scene.textures.push(picture);
-                Some(self.scene.textures.len() as u32 - 1)
+                self.scene.textures.push(Texture { name, ..picture });
+                let texture = self.scene.textures.len() as u32 - 1;
+                self.decoded.insert(index.value(), texture);
+                Some(texture)
             }
             Err(why) => {
                 self.scene.notes.push(format!("picture \"{name}\" left out: {why}"));
@@ -192,10 +205,10 @@ impl Reader<'_> {
         }
     }
 
-    fn encoded(&self, image: &json::Image) -> std::result::Result<Vec<u8>, String> {
+    fn encoded(&mut self, image: &json::Image) -> std::result::Result<Vec<u8>, String> {
         let bytes = match (&image.buffer_view, &image.uri) {
             (Some(view), _) => self.file.view(*view).map(|(bytes, _)| bytes.to_vec()),
-            (None, Some(uri)) => self.file.resource(uri),
+            (None, Some(uri)) => self.file.resource(uri, &mut self.scene.notes),
             (None, None) => return Err("it has neither data nor a file".to_owned()),
         };
         bytes.map_err(|error| error.to_string())

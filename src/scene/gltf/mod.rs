@@ -5,25 +5,36 @@ mod file;
 mod lights;
 mod materials;
 mod nodes;
+mod pose;
 mod primitives;
 
 use std::path::Path;
+
+use glam::DVec3;
 
 use self::file::{File, is_readable};
 pub(crate) use self::materials::sampler_of;
 use super::notes::{listed, note_count};
 use super::texture::UvMapping;
-use super::{Material, Scene};
+use super::{LoadOptions, Material, Scene};
 use crate::error::Result;
 
 /// Reads the glTF or GLB file at `path` with its buffers and pictures.
-pub(super) fn read(path: &Path) -> Result<Scene> {
-    let file = File::open(path)?;
-    let mut scene = Scene { files: file.files(), ..Scene::default() };
+pub(super) fn read(path: &Path, options: &LoadOptions) -> Result<Scene> {
+    let mut notes = Vec::new();
+    let file = File::open(path, &mut notes)?;
+    let mut scene = Scene { files: file.files(), notes, ..Scene::default() };
     let materials::Known { mappings, clear } = materials::read(&file, &mut scene)?;
-    let mut import =
-        Import { file: &file, scene, mappings, fallback: None, skipped: Skipped::default() };
+    let mut import = Import {
+        file: &file,
+        scene,
+        mappings,
+        fallback: None,
+        ranges: Vec::new(),
+        skipped: Skipped::default(),
+    };
     import.add_nodes()?;
+    import.note_lights(options.emission);
     import.note_skipped();
     import.note_extensions();
     import.scene.leave_out(&clear);
@@ -38,6 +49,8 @@ struct Import<'a> {
     mappings: Vec<UvMapping>,
     /// Index of the material of primitives without one.
     fallback: Option<u32>,
+    /// Names of lamps, where they stand and how far they are said to reach, m.
+    ranges: Vec<(String, DVec3, f64)>,
     skipped: Skipped,
 }
 
@@ -48,8 +61,8 @@ struct Skipped {
     loose: usize,
     /// Cameras that are not perspective, or without a sensible angle or direction.
     cameras: usize,
-    skins: usize,
-    morphs: usize,
+    /// Primitives whose vertices say that light comes through.
+    alphas: usize,
 }
 
 impl Import<'_> {
@@ -77,7 +90,11 @@ impl Import<'_> {
         let (skipped, notes) = (&self.skipped, &mut self.scene.notes);
         note_count(notes, skipped.loose, "primitive", "of points or lines ignored");
         note_count(notes, skipped.cameras, "camera", "ignored: only perspective ones are read");
-        note_count(notes, skipped.skins, "skinned mesh node", "taken in rest pose");
-        note_count(notes, skipped.morphs, "morphed primitive", "taken in rest pose");
+        note_count(
+            notes,
+            skipped.alphas,
+            "primitive",
+            "with transparent vertex colours taken as opaque",
+        );
     }
 }

@@ -9,12 +9,31 @@ use super::primitives::Placement;
 use crate::error::Result;
 use crate::scene::Node as SceneNode;
 
+/// A node, its transform to the world, and which of those placed is its parent.
+type Placed = (Index<Node>, DMat4, Option<u32>);
+
 impl Import<'_> {
-    /// Visits every node of the chosen scene once, parents before children, in the file's order.
+    /// Adds what stands at the nodes of the chosen scene, parents before children, in the file's order.
     pub(super) fn add_nodes(&mut self) -> Result<()> {
+        let placed = self.placed()?;
+        let mut transforms = vec![None; self.file.root.nodes.len()];
+        for (index, transform, _) in &placed {
+            transforms[index.value()] = Some(*transform);
+        }
+        for (index, transform, parent) in placed {
+            let name = self.file.get(index, "node")?.name.clone().unwrap_or_default();
+            self.scene.nodes.push(SceneNode { name, parent, ..SceneNode::default() });
+            self.add_node(index, transform, &transforms)?;
+        }
+        Ok(())
+    }
+
+    /// Every node of the chosen scene, once, parents before children.
+    fn placed(&self) -> Result<Vec<Placed>> {
         let file = self.file;
+        let mut placed = Vec::new();
         let mut visited = vec![false; file.root.nodes.len()];
-        let mut stack: Vec<(Index<Node>, DMat4, Option<u32>)> =
+        let mut stack: Vec<Placed> =
             self.roots()?.into_iter().rev().map(|root| (root, DMat4::IDENTITY, None)).collect();
         while let Some((index, above, parent)) = stack.pop() {
             let node = file.get(index, "node")?;
@@ -26,17 +45,12 @@ impl Import<'_> {
             if !transform.is_finite() {
                 return Err(file.fail(format!("node {index} has a transform that is not finite")));
             }
-            let number = self.scene.nodes.len() as u32;
-            self.scene.nodes.push(SceneNode {
-                name: node.name.clone().unwrap_or_default(),
-                parent,
-                ..SceneNode::default()
-            });
-            self.add_node(index, node, transform)?;
+            let number = placed.len() as u32;
+            placed.push((index, transform, parent));
             let children = node.children.as_deref().unwrap_or_default();
             stack.extend(children.iter().rev().map(|&child| (child, transform, Some(number))));
         }
-        Ok(())
+        Ok(placed)
     }
 
     /// Roots of the default scene, else of the first, else all nodes that are no one's child.
@@ -58,9 +72,14 @@ impl Import<'_> {
         Ok(free.map(|node| Index::new(node as u32)).collect())
     }
 
-    fn add_node(&mut self, index: Index<Node>, node: &Node, transform: DMat4) -> Result<()> {
+    fn add_node(
+        &mut self,
+        index: Index<Node>,
+        transform: DMat4,
+        transforms: &[Option<DMat4>],
+    ) -> Result<()> {
+        let node = self.file.get(index, "node")?;
         if let Some(mesh) = node.mesh {
-            self.skipped.skins += usize::from(node.skin.is_some());
             let mesh = self.file.get(mesh, "mesh")?;
             let name = node.name.clone().or_else(|| mesh.name.clone());
             self.scene.objects.push(name.unwrap_or_else(|| format!("node {index}")));
@@ -68,8 +87,13 @@ impl Import<'_> {
             if let Some(own) = self.scene.nodes.last_mut() {
                 own.object = Some(object);
             }
+            let joints = node.skin.map(|skin| self.file.joints(skin, transforms)).transpose()?;
+            let joints = joints.as_deref();
+            let weights = node.weights.as_ref().or(mesh.weights.as_ref());
+            let weights = weights.map_or(&[][..], Vec::as_slice);
             for primitive in &mesh.primitives {
-                self.add_primitive(primitive, Placement { transform, object })?;
+                let placement = Placement { transform, joints, weights, object };
+                self.add_primitive(primitive, placement)?;
             }
         }
         if let Some(camera) = node.camera {

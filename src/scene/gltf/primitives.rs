@@ -1,24 +1,30 @@
 //! Triangles of a mesh, placed in the world.
 
+use ::gltf::json::accessor::Type;
+use ::gltf::json::material::AlphaMode;
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Index, accessor::Accessor};
-use glam::{DMat3, DMat4, DVec2, DVec3, Vec3};
+use glam::{DMat4, DVec2, DVec3, Vec3};
 use smallvec::SmallVec;
 
 use super::Import;
 use super::accessors::Purpose;
 use super::file::File;
-use crate::colour::Rgb;
+use super::pose::Pose;
 use crate::error::Result;
 use crate::scene::Face;
 use crate::scene::load::tamed;
 
 /// Where and as what a primitive stands in the scene.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Placement {
-    /// Mesh to world.
+pub(super) struct Placement<'a> {
+    /// Mesh to world, unless joints pose it.
     pub(super) transform: DMat4,
+    /// Mesh to world of each joint of a skin.
+    pub(super) joints: Option<&'a [DMat4]>,
+    /// By how much each morph target is added.
+    pub(super) weights: &'a [f32],
     /// Index into the scene's objects.
     pub(super) object: u32,
 }
@@ -28,7 +34,8 @@ struct Vertices {
     positions: Vec<DVec3>,
     normals: Vec<Vec3>,
     uvs: Vec<DVec2>,
-    colours: Vec<Rgb>,
+    colours: Vec<Vec3>,
+    pose: Pose,
 }
 
 impl Import<'_> {
@@ -36,7 +43,7 @@ impl Import<'_> {
     pub(super) fn add_primitive(
         &mut self,
         primitive: &Primitive,
-        placement: Placement,
+        placement: Placement<'_>,
     ) -> Result<()> {
         let mode = match &primitive.mode {
             Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => {
@@ -48,8 +55,6 @@ impl Import<'_> {
             }
             Checked::Invalid => return Err(self.file.fail("a primitive of unknown mode")),
         };
-        self.skipped.morphs +=
-            usize::from(primitive.targets.as_ref().is_some_and(|t| !t.is_empty()));
         self.refuse_draco(primitive)?;
         let material = self.material(primitive)?;
         let vertices = self.vertices(primitive, material, placement)?;
@@ -68,9 +73,8 @@ impl Import<'_> {
             return Err(self.file.fail("more vertices than 32 bits can count"));
         }
         self.scene.positions.extend(&vertices.positions);
-        let mirrored = DMat3::from_mat4(placement.transform).determinant() < 0.0;
         for mut triangle in triangles(&indices, mode) {
-            if mirrored {
+            if vertices.pose.mirrors(triangle[0]) {
                 triangle.swap(1, 2);
             }
             let mut face = vertices.face(triangle, base as u32);
@@ -105,43 +109,63 @@ impl Import<'_> {
         }
     }
 
-    fn vertices(
+    /// Whether the colours of a primitive's vertices say that light comes through, and are meant to.
+    fn lets_through(
         &self,
         primitive: &Primitive,
+        colours: Option<Index<Accessor>>,
+    ) -> Result<bool> {
+        let material = primitive.material.and_then(|index| self.file.root.get(index));
+        let (Some(material), Some(colours)) = (material, colours) else { return Ok(false) };
+        let has_alpha = self.file.get(colours, "accessor")?.type_ == Checked::Valid(Type::Vec4);
+        if material.alpha_mode == Checked::Valid(AlphaMode::Opaque) || !has_alpha {
+            return Ok(false);
+        }
+        let colours = self.file.floats(colours, Purpose::Colour)?;
+        Ok(colours.iter().any(|&[_, _, _, alpha]| alpha < 1.0))
+    }
+
+    fn vertices(
+        &mut self,
+        primitive: &Primitive,
         material: u32,
-        placement: Placement,
+        placement: Placement<'_>,
     ) -> Result<Vertices> {
         let attribute =
             |semantic: Semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
         let mapping = self.mappings[material as usize];
-        let transform = placement.transform;
         let points: Vec<[f64; 3]> = match attribute(Semantic::Positions) {
             Some(index) => self.file.floats(index, Purpose::Position)?,
             None => return Err(self.file.fail("a primitive without POSITION")),
         };
         let expected = points.len();
-        // Multiplying by the cofactors keeps normals right under any scale, even a flat one.
-        let across = cofactors(DMat3::from_mat4(transform));
-        let place = |n: [f64; 3]| (across * DVec3::from(n)).normalize_or_zero().as_vec3();
         let normals = list(self.file, attribute(Semantic::Normals), Purpose::Normal, expected)?;
+        let [mut points, mut normals] =
+            [points, normals].map(|list| list.into_iter().map(DVec3::from).collect::<Vec<_>>());
+        self.file.morph(primitive, placement.weights, [&mut points, &mut normals])?;
+        let pose = Pose::of(self.file, primitive, (expected, placement))?;
         let uvs = list(
             self.file,
             attribute(Semantic::TexCoords(mapping.set)),
             Purpose::TexCoord,
             expected,
         )?;
-        let colours = list(self.file, attribute(Semantic::Colors(0)), Purpose::Colour, expected)?;
+        let colours = attribute(Semantic::Colors(0));
+        self.skipped.alphas += usize::from(self.lets_through(primitive, colours)?);
+        let colours = list(self.file, colours, Purpose::Colour, expected)?;
+        let tint = |colour: [f64; 3]| tamed(colour.into(), 1.0).as_vec3();
         Ok(Vertices {
-            positions: points.into_iter().map(|p| transform.transform_point3(p.into())).collect(),
-            normals: normals.into_iter().map(place).collect(),
+            positions: pose.placed(points),
+            normals: pose.turned(normals),
             uvs: uvs.into_iter().map(|uv: [f64; 2]| mapping.apply(uv.into())).collect(),
-            colours: colours.into_iter().map(|c: [f64; 3]| tamed(c.into(), 1.0)).collect(),
+            colours: colours.into_iter().map(tint).collect(),
+            pose,
         })
     }
 }
 
 /// An attribute's values, one a vertex, or nothing where the primitive has no such attribute.
-fn list<const N: usize>(
+pub(super) fn list<const N: usize>(
     file: &File,
     index: Option<Index<Accessor>>,
     purpose: Purpose,
@@ -160,15 +184,11 @@ fn list<const N: usize>(
 impl Vertices {
     fn face(&self, triangle: [u32; 3], base: u32) -> Face {
         let corners = triangle.map(|corner| corner as usize);
-        let tint = match self.colours.is_empty() {
-            true => Rgb::ONE,
-            false => corners.iter().map(|&corner| self.colours[corner]).sum::<Rgb>() / 3.0,
-        };
         Face {
             vertices: triangle.iter().map(|corner| base + corner).collect(),
             normals: picked(&self.normals, corners),
             uvs: picked(&self.uvs, corners),
-            tint,
+            tints: picked(&self.colours, corners),
             ..Face::default()
         }
     }
@@ -176,13 +196,6 @@ impl Vertices {
 
 fn picked<T: Copy>(list: &[T], corners: [usize; 3]) -> SmallVec<[T; 4]> {
     corners.iter().filter_map(|&corner| list.get(corner).copied()).collect()
-}
-
-/// The matrix that carries cross products along with `matrix`, up to the sign of its determinant.
-fn cofactors(matrix: DMat3) -> DMat3 {
-    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
-    let sign = if matrix.determinant() < 0.0 { -1.0 } else { 1.0 };
-    sign * DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
 }
 
 /// Index triples of the triangles, counter-clockwise; left-over indices are ignored as the format wants.
@@ -210,13 +223,5 @@ mod tests {
         assert_eq!(triangles(&indices, Mode::TriangleFan), [[0, 1, 2], [0, 2, 3], [0, 3, 4]]);
         assert_eq!(triangles(&indices, Mode::Triangles), [[0, 1, 2]]);
         assert!(triangles(&[], Mode::TriangleFan).is_empty());
-    }
-
-    #[test]
-    fn normals_stay_across_their_plane_under_any_scale() {
-        let matrix = DMat3::from_diagonal(DVec3::new(-1.0, 4.0, 0.5));
-        let (u, v) = (DVec3::new(1.0, 2.0, 0.0), DVec3::new(0.0, 1.0, 3.0));
-        let placed = cofactors(matrix) * u.cross(v);
-        assert!(placed.dot(matrix * u).abs() < 1e-12 && placed.dot(matrix * v).abs() < 1e-12);
     }
 }

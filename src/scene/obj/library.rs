@@ -7,13 +7,14 @@ use std::path::{Path, PathBuf};
 use glam::{DAffine2, DMat2, DVec2};
 
 use super::mtl::{self, Map, MtlMaterial};
-use super::text;
 use crate::colour::Rgb;
+use crate::scene::named::find;
 use crate::scene::notes::listed;
+use crate::scene::text::{self, without_comment, words};
 use crate::scene::texture::{
     Picture, UvMapping, attach_pictures, decode, note_missing, without_picture,
 };
-use crate::scene::{Material, Sampler, Scene, Wrap};
+use crate::scene::{Material, Scene, Texture};
 
 /// What a face needs to know of its material.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +28,10 @@ pub(super) struct Use {
 #[derive(Debug, Default)]
 pub(super) struct Library {
     by_name: HashMap<String, Use>,
+    /// The same by names without what may be a comment.
+    by_short_name: HashMap<String, Use>,
+    /// Where the OBJ file is.
+    folder: PathBuf,
     /// Pictures read so far, by file and whether clamped; `None` for unreadable ones.
     pictures: HashMap<(PathBuf, bool), Option<u32>>,
     fallback: Option<Use>,
@@ -42,9 +47,11 @@ impl Library {
     /// Reads the `libraries` that the OBJ file at `path` names; what is missing is noted.
     pub(super) fn read(path: &Path, libraries: &[String], scene: &mut Scene) -> Self {
         let folder = path.parent().unwrap_or(Path::new(""));
-        let mut library = Self::default();
+        let mut library = Self { folder: folder.to_owned(), ..Self::default() };
         let mut seen = Vec::new();
-        for file in libraries.iter().flat_map(|names| library_files(folder, names)) {
+        let files =
+            libraries.iter().flat_map(|names| library_files(folder, names, &mut scene.notes));
+        for file in files.collect::<Vec<_>>() {
             if seen.contains(&file) {
                 continue;
             }
@@ -103,6 +110,9 @@ impl Library {
         let mapping = attach_pictures(scene, &mut material, reflectance_map, emission_map);
         scene.materials.push(material);
         let used = Use { material: scene.materials.len() as u32 - 1, mapping };
+        if let Some(short) = without_comment(&from.name) {
+            self.by_short_name.insert(short.to_owned(), used);
+        }
         if self.by_name.insert(from.name.clone(), used).is_some() {
             let name = from.name;
             scene.notes.push(format!("material \"{name}\" is defined twice; the last one counts"));
@@ -111,14 +121,29 @@ impl Library {
 
     fn picture(&mut self, library: &Path, map: &Map, scene: &mut Scene) -> Option<Picture> {
         let folder = library.parent().unwrap_or(Path::new(""));
-        let file = folder.join(map.file.replace('\\', "/"));
+        let names = [Some(map.file.as_str()), without_comment(&map.file)];
+        let found = names.into_iter().flatten().find_map(|name| {
+            find(folder, name, &mut scene.notes)
+                .or_else(|| find(&self.folder, name, &mut scene.notes))
+        });
+        let file = found.unwrap_or_else(|| folder.join(&map.file));
+        let other = (file.clone(), !map.clamp);
         let key = (file, map.clamp);
         if !self.pictures.contains_key(&key) {
-            let texture = read_picture(folder, &key.0, map, scene);
+            let texture = match self.pictures.get(&other) {
+                Some(known) => known.map(|known| scene.add_texture_like(known, map.sampler())),
+                None => read_picture(&key.0, map, scene),
+            };
             self.pictures.insert(key.clone(), texture);
         }
         let texture = self.pictures.get(&key).copied().flatten()?;
         Some(Picture { texture, mapping: UvMapping { set: 0, transform: from_bottom_left(map) } })
+    }
+
+    /// The use of the material that a name in an OBJ file means.
+    fn named(&self, name: &str) -> Option<Use> {
+        let short = || without_comment(name).and_then(|short| self.by_name.get(short));
+        self.by_name.get(name).or_else(short).or_else(|| self.by_short_name.get(name)).copied()
     }
 
     /// The uses of the materials in `names`; unknown ones look like the default, under their own name, with a note.
@@ -131,7 +156,7 @@ impl Library {
         let (mut unknown, mut first) = (Vec::new(), 0);
         let mut uses = Vec::with_capacity(names.len());
         for (line, name) in names {
-            let used = self.by_name.get(name).copied();
+            let used = self.named(name);
             uses.push(used.unwrap_or_else(|| {
                 first = if unknown.is_empty() { *line } else { first };
                 unknown.push(name.clone());
@@ -161,23 +186,30 @@ fn added(scene: &mut Scene, material: Material) -> Use {
 }
 
 /// One file with spaces in its name, or several files: whichever exists.
-fn library_files(folder: &Path, names: &str) -> Vec<PathBuf> {
-    let whole = folder.join(names.trim_matches('"').replace('\\', "/"));
-    let parts: Vec<PathBuf> = names.split_whitespace().map(|name| folder.join(name)).collect();
-    if !whole.is_file() && parts.iter().any(|part| part.is_file()) { parts } else { vec![whole] }
+fn library_files(folder: &Path, names: &str, notes: &mut Vec<String>) -> Vec<PathBuf> {
+    let whole = [Some(names), without_comment(names)].into_iter().flatten();
+    // What is several names may as a whole be none that another file was taken for.
+    if let Some(file) = whole.clone().map(|name| folder.join(name)).find(|file| file.is_file()) {
+        return vec![file];
+    }
+    let parts: Vec<&str> = words(names).collect();
+    if parts.iter().any(|part| folder.join(part).is_file()) {
+        return parts.iter().map(|part| folder.join(part)).collect();
+    }
+    let taken = whole.clone().find_map(|name| find(folder, name, notes));
+    let taken = taken
+        .map(|file| vec![file])
+        .unwrap_or_else(|| parts.iter().filter_map(|part| find(folder, part, notes)).collect());
+    if taken.is_empty() { vec![folder.join(names.trim_matches('"'))] } else { taken }
 }
 
-fn read_picture(library_folder: &Path, file: &Path, map: &Map, scene: &mut Scene) -> Option<u32> {
-    // Exporters like to write paths of their own machine.
-    let beside = library_folder.join(file.file_name().unwrap_or_default());
-    let bytes = fs::read(file).or_else(|error| fs::read(&beside).map_err(|_| error));
-    scene.files.extend([file.to_owned(), beside]);
-    let bytes = bytes.map_err(|error| error.to_string());
-    let wrap = if map.clamp { Wrap::Clamp } else { Wrap::Repeat };
-    let sampler = Sampler { wrap: [wrap; 2], nearest: false };
-    match bytes.and_then(|bytes| decode(&map.file, &bytes, sampler)) {
+fn read_picture(file: &Path, map: &Map, scene: &mut Scene) -> Option<u32> {
+    scene.files.push(file.to_owned());
+    let bytes = fs::read(file).map_err(|error| error.to_string());
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    match bytes.and_then(|bytes| decode(&name, &bytes, map.sampler())) {
         Ok(texture) => {
-            scene.textures.push(texture);
+            scene.textures.push(Texture { name: map.file.clone(), ..texture });
             Some(scene.textures.len() as u32 - 1)
         }
         Err(why) => {

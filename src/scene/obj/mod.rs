@@ -4,7 +4,6 @@ mod library;
 mod mtl;
 mod scan;
 mod smoothing;
-mod text;
 
 use std::io::Read;
 use std::ops::Range;
@@ -16,17 +15,14 @@ use smallvec::SmallVec;
 use self::library::{Library, Use};
 use self::scan::{FaceLine, Scan};
 use super::notes::note_count;
-use super::{Face, LoadOptions, Scene};
-use crate::colour::Rgb;
+use super::{Face, Scene, text};
 use crate::error::{Error, Result};
 
-/// Reads the OBJ file at `path` and its material libraries; `options` have its unit and what is up in it.
-pub(super) fn read(path: &Path, options: &LoadOptions) -> Result<Scene> {
+/// Reads the OBJ file at `path` and its material libraries.
+pub(super) fn read(path: &Path) -> Result<Scene> {
     let text = text::read(path)?;
     let scan = scan::scan(path, &text)?;
-    let mut mesh = parse(path, &scan)?;
-    options.up.lay(&mut mesh.positions);
-    options.up.lay(&mut mesh.normals);
+    let mesh = parse(path, &scan)?;
     let (objects, files) = (scan.objects.clone(), vec![path.to_owned()]);
     let mut scene = Scene { objects, files, ..Scene::default() };
     note_ignored(&scan, &mut scene.notes);
@@ -34,9 +30,7 @@ pub(super) fn read(path: &Path, options: &LoadOptions) -> Result<Scene> {
     let uses: Vec<Use> = library.resolve(path, &scan.materials, &mut scene);
     let nameless = scan.faces.iter().any(|face| face.material.is_none());
     let fallback = nameless.then(|| library.fallback(&mut scene));
-    let scale = options.metres_per_unit;
-    scene.positions =
-        (mesh.positions.chunks_exact(3)).map(|p| scale * DVec3::from_slice(p)).collect();
+    scene.positions = mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
     let corners = Corners::new(&mesh);
     let mut start = 0;
     for (index, line) in scan.faces.iter().enumerate() {
@@ -99,7 +93,6 @@ impl Corners {
     fn face(&self, range: Range<usize>, line: &FaceLine, used: &Use) -> Option<Face> {
         let mut face = Face {
             vertices: self.vertices.get(range.clone())?.into(),
-            tint: Rgb::ONE,
             material: used.material,
             object: line.object,
             ..Face::default()

@@ -4,8 +4,9 @@ use std::path::Path;
 
 use glam::DVec2;
 
-use super::text::{keyword, lines, numbers};
 use crate::colour::Rgb;
+use crate::scene::text::{keyword, lines, name, numbers};
+use crate::scene::{Sampler, Wrap};
 
 /// What an MTL file says about a material.
 #[derive(Debug, Default)]
@@ -34,13 +35,21 @@ pub(super) struct Map {
     pub(super) clamp: bool,
 }
 
+impl Map {
+    /// How the picture is read.
+    pub(super) fn sampler(&self) -> Sampler {
+        let wrap = if self.clamp { Wrap::Clamp } else { Wrap::Repeat };
+        Sampler { wrap: [wrap; 2], nearest: false }
+    }
+}
+
 /// Reads `text`, the content of `path`; what is wrong goes to `notes` with file and line.
 pub(super) fn parse(path: &Path, text: &str, notes: &mut Vec<String>) -> Vec<MtlMaterial> {
     let mut materials: Vec<MtlMaterial> = Vec::new();
     for (number, line) in lines(text) {
         let (word, rest) = keyword(&line);
         if word.eq_ignore_ascii_case("newmtl") {
-            materials.push(MtlMaterial { name: rest.to_owned(), ..MtlMaterial::default() });
+            materials.push(MtlMaterial { name: name(rest).to_owned(), ..MtlMaterial::default() });
             continue;
         }
         let Some(material) = materials.last_mut() else { continue };
@@ -77,7 +86,7 @@ fn set(material: &mut MtlMaterial, word: &str, rest: &str) -> Result<(), String>
 
 fn colour(rest: &str) -> Result<Rgb, String> {
     let (first, _) = keyword(rest);
-    if first == "spectral" || first == "xyz" {
+    if ["spectral", "xyz"].iter().any(|other| first.eq_ignore_ascii_case(other)) {
         return Err(format!("\"{first}\" colours are not read, only RGB"));
     }
     let values = numbers(rest).map_err(|word| format!("\"{word}\" is not a finite number"))?;
@@ -94,14 +103,14 @@ fn map(rest: &str) -> Result<Map, String> {
     let mut rest = rest;
     while let Some(option) = rest.strip_prefix('-') {
         let (name, values) = keyword(option);
-        rest = match name {
+        rest = match name.to_ascii_lowercase().as_str() {
             "s" => vector(values, &mut map.scale),
             "o" => vector(values, &mut map.offset),
             "t" => vector(values, &mut DVec2::default()),
             "mm" => keyword(keyword(values).1).1,
             "clamp" => {
                 let (state, after) = keyword(values);
-                map.clamp = state == "on";
+                map.clamp = state.eq_ignore_ascii_case("on");
                 after
             }
             "blendu" | "blendv" | "cc" | "texres" | "bm" | "boost" | "imfchan" | "type"

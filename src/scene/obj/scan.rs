@@ -1,12 +1,13 @@
 //! A first pass over an OBJ file: finds errors with their lines, and what the parser leaves out.
 
+use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
 use std::iter::repeat;
 use std::path::Path;
 
-use super::text::{keyword, lines, numbers, words};
 use crate::error::{Error, Result};
+use crate::scene::text::{keyword, lines, name, numbers, words};
 
 /// What a pass over the file found.
 #[derive(Debug, Default)]
@@ -89,7 +90,7 @@ impl Scan {
 
     fn line(&mut self, state: &mut State, number: usize, line: &str) -> LineResult<()> {
         let (word, rest) = keyword(line);
-        match word {
+        match &*lowered(word) {
             "v" => self.vertex(rest)?,
             "vt" => self.datum(1, "vt", rest)?,
             "vn" => self.datum(2, "vn", rest)?,
@@ -101,7 +102,7 @@ impl Scan {
                 state.object = None;
             }
             "s" => state.smoothing = smoothing_group(rest),
-            "usemtl" => state.material = self.material(number, rest),
+            "usemtl" => state.material = self.material(number, name(rest)),
             "mtllib" => self.libraries.push(rest.to_owned()),
             _ => {}
         }
@@ -241,14 +242,22 @@ impl Scan {
     }
 }
 
+/// A keyword in the case in which it is known.
+fn lowered(word: &str) -> Cow<'_, str> {
+    match word.bytes().any(|byte| byte.is_ascii_uppercase()) {
+        true => Cow::Owned(word.to_ascii_lowercase()),
+        false => Cow::Borrowed(word),
+    }
+}
+
 fn finite(rest: &str) -> LineResult<Vec<f64>> {
     numbers(rest).map_err(|word| format!("\"{word}\" is not a finite number"))
 }
 
 fn smoothing_group(rest: &str) -> u32 {
     match words(rest).next() {
-        None | Some("off") => 0,
-        Some("on") => 1,
+        Some(word) if word.eq_ignore_ascii_case("on") => 1,
         Some(group) => group.parse().unwrap_or(0),
+        None => 0,
     }
 }

@@ -11,19 +11,46 @@ pub(crate) fn read(path: &Path) -> Result<String> {
     Ok(decoded(&fs::read(path).map_err(Error::io(path))?))
 }
 
-fn decoded(bytes: &[u8]) -> String {
+/// The text of a file's bytes, its lines ended by line feeds.
+pub(crate) fn decoded(bytes: &[u8]) -> String {
     let wide = |from: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|b| from([b[0], b[1]])).collect();
         String::from_utf16_lossy(&units)
     };
-    match bytes {
+    in_lines(match bytes {
         [0xff, 0xfe, ..] => wide(u16::from_le_bytes),
         [0xfe, 0xff, ..] => wide(u16::from_be_bytes),
         _ => {
             let text = String::from_utf8_lossy(bytes);
             text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned()
         }
+    })
+}
+
+/// The text with lines that end in a line feed where some end in a carriage return alone.
+fn in_lines(text: String) -> String {
+    let mut rest = text.bytes().peekable();
+    while let Some(byte) = rest.next() {
+        if byte == b'\r' && rest.peek() != Some(&b'\n') {
+            return text.replace("\r\n", "\n").replace('\r', "\n");
+        }
     }
+    text
+}
+
+/// A name without a comment after it, be it glued to its sign or not: `wood # oak`, but `Material #25` is a name, too.
+pub(crate) fn without_comment(name: &str) -> Option<&str> {
+    let start = name.match_indices('#').map(|(start, _)| start);
+    let mut before =
+        start.map(|start| &name[..start]).filter(|name| name.ends_with(char::is_whitespace));
+    before.next().map(str::trim_end).filter(|name| !name.is_empty())
+}
+
+/// The same where the comment is plainly one, its sign between spaces.
+pub(crate) fn name(rest: &str) -> &str {
+    let end = rest.split_once("# ").map_or(rest.strip_suffix('#'), |(name, _)| Some(name));
+    let end = end.filter(|name| name.ends_with(char::is_whitespace)).map(str::trim_end);
+    end.filter(|name| !name.is_empty()).unwrap_or(rest)
 }
 
 /// Trimmed lines with the number of their first physical line, counted from 1.
