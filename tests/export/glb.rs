@@ -189,7 +189,7 @@ fn a_glb_without_radiosity_is_refused_with_advice() {
 fn shown_at_a_corner(texels: Vec<[f32; 3]>, radiosity: Rgb) -> [Rgb; 2] {
     let mut mesh = small_mesh();
     let mean = texels.iter().map(|&texel| Vec3::from(texel).as_dvec3()).sum::<Rgb>() / 2.0;
-    mesh.textures[0].texels = texels;
+    mesh.textures[0].texels = texels.into();
     mesh.texture_mean.fill(mean);
     mesh.radiosity.fill(radiosity * mean);
     let stamp = Stamp { exposure: Exposure::Ev(9.0), ..Stamp::default() };
@@ -208,7 +208,7 @@ fn shown_at_a_corner(texels: Vec<[f32; 3]>, radiosity: Rgb) -> [Rgb; 2] {
     let scale = exposure_scale(&mesh, stamp.exposure);
     let white = mesh.textures[0].white();
     let light = mesh.light(0) * scale;
-    let ours = Vec3::from(mesh.textures[0].texels[0]).as_dvec3() * light;
+    let ours = Vec3::from(mesh.textures[0].texels.get(0).unwrap()).as_dvec3() * light;
     [
         Rgb::new(factor(0), factor(1), factor(2)) * Rgb::from(texel),
         tone_map_picture(ours, light * white),
@@ -235,10 +235,10 @@ fn dark_and_saturated_pictures_are_shown_as_our_own_picture_has_them() {
 #[test]
 fn a_dark_picture_is_brightened_in_the_file_and_dark_again_when_read() {
     let mut mesh = small_mesh();
-    mesh.textures[0].texels = vec![[0.02, 0.01, 0.0], [0.005, 0.01, 0.015]];
+    mesh.textures[0].texels = vec![[0.02, 0.01, 0.0], [0.005, 0.01, 0.015]].into();
     let (back, stamp) = round_trip(&mesh, &Stamp::default()).unwrap();
-    for (texel, expected) in back.textures[0].texels.iter().zip(&mesh.textures[0].texels) {
-        let apart = (Vec3::from(*texel) - Vec3::from(*expected)).abs().max_element();
+    for (texel, expected) in back.textures[0].texels.iter().zip(mesh.textures[0].texels.iter()) {
+        let apart = (Vec3::from(texel) - Vec3::from(expected)).abs().max_element();
         assert!(apart < 0.02 * 0.01, "{texel:?}");
     }
     let (again, _) = round_trip(&back, &stamp).unwrap();

@@ -1,7 +1,7 @@
 //! Lines, keywords and names of files as exporters of other machines write them.
 
 use glam::DVec3;
-use radiosity::scene::Scene;
+use radiosity::scene::{Scene, Wrap};
 use serde_json::json;
 
 use crate::asset::{Asset, FLOAT, floats};
@@ -124,7 +124,8 @@ fn a_picture_is_decoded_once_and_takes_as_much_as_it_came_with() {
     let folder = folder.with("a.obj", OBJ).with("a.mtl", mtl);
     for scene in [gltf, folder.load("a.obj").unwrap()] {
         let [tiled, clamped] = &scene.textures[..] else { panic!("{:?}", scene.textures.len()) };
-        assert_eq!((tiled.repeat, clamped.repeat), ([true; 2], [false; 2]));
+        assert_eq!(tiled.sampler.wrap, [Wrap::Repeat; 2]);
+        assert_eq!(clamped.sampler.wrap, [Wrap::Clamp; 2]);
         assert_eq!(tiled.texels.memory(), clamped.texels.memory());
         assert_eq!(tiled.texels.memory().1, 64 * 32 * 3);
         let shown = radiosity::surfaces_of(&scene).textures;
