@@ -20,10 +20,12 @@ const MARK: &str = "# materials of an OBJ by radiosity";
 pub(super) fn beside(path: &Path, textures: &[Texture]) -> Vec<PathBuf> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     // A brightened JPEG becomes a PNG.
-    let codings = |texture| [Coding::of(texture, 1.0), Coding::Png];
-    let names = |(number, texture)| codings(texture).map(|coding| name_of(&stem, number, coding));
+    let codings = |texture| BTreeSet::from([Coding::of(texture, 1.0).ending(), "png"]);
+    let pictures = textures.iter().enumerate().flat_map(|(number, texture)| {
+        codings(texture).into_iter().map(move |ending| (number, ending))
+    });
     let pictures =
-        textures.iter().enumerate().flat_map(names).map(|name| path.with_file_name(name));
+        pictures.map(|(number, ending)| path.with_file_name(name_of(&stem, number, ending)));
     [path.with_extension("mtl")].into_iter().chain(pictures).collect()
 }
 
@@ -152,11 +154,11 @@ fn write_material(name: &str, picture: Option<&str>, out: &mut impl Write) -> io
 
 fn picture_name(look: &Look, stem: &str, texture: u32) -> String {
     let number = texture as usize;
-    name_of(stem, number, Coding::of(&look.mesh.textures[number], look.whites[number]))
+    name_of(stem, number, Coding::of(&look.mesh.textures[number], look.whites[number]).ending())
 }
 
-fn name_of(stem: &str, number: usize, coding: Coding) -> String {
-    format!("{stem}-{number}.{}", coding.ending())
+fn name_of(stem: &str, number: usize, ending: &str) -> String {
+    format!("{stem}-{number}.{ending}")
 }
 
 /// Names of the groups' materials that an MTL can hold: without spaces, and each used for one look.

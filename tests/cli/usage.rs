@@ -61,7 +61,6 @@ fn options_that_would_do_nothing_are_refused() {
         (&["solve", obj, "--uniform", "0.1", "--no-discontinuity-lines"], &["--uniform"]),
         (&["solve", obj, "-o", "a.glb", "--format", "glb"], &["format", "pipes"]),
         (&["solve", obj, "--resume"], &["--checkpoint"]),
-        (&["solve", glb, "--units", "cm"], &["units", "metres by definition"]),
         (&["solve", obj, "--emit", "white=1e300"], &["more than"]),
         (&["solve", obj, "--emit", "white=1e300lm"], &["more than"]),
         (&["solve", obj, "--area-light", "0,0,0=1x1=1e200"], &["more than"]),
