@@ -31,10 +31,9 @@ const run = (...options) => execFileSync(program, options.map(String), { stdio: 
 for (const { name, file, eye, target, fov, width, height } of SCENES) {
   const place = (ending) => join(directory, `${name}${ending}`);
   run("solve", file, "--quality", "draft", "-q", "-o", place(".glb"), "--lightmap", 1024);
-  const view = ["--eye", eye, "--target", target, "--fov", fov, "--size", `${width}x${height}`, "--exposure", exposure(place(".glb"))];
-  for (const ending of [".png", ".exr"]) {
-    run("render", place(".glb"), "-q", "-o", place(ending), ...view);
-  }
+  const view = ["--eye", eye, "--target", target, "--fov", fov, "--size", `${width}x${height}`];
+  run("render", place(".glb"), "-q", "-o", place(".png"), ...view, "--exposure", exposure(place(".glb")));
+  run("render", place(".glb"), "-q", "-o", place(".exr"), ...view);
 }
 writeFileSync(join(directory, "scenes.json"), JSON.stringify(SCENES));
 console.log(`${SCENES.length} scenes in ${directory}`);
