@@ -11,11 +11,13 @@ use smallvec::SmallVec;
 
 use super::ElementLight;
 use super::direct_pass::{World, reflects};
-use super::element_light::mean_direct;
+use super::element_light::{mean, mean_direct};
+use super::sources::quarters;
 use crate::colour::Rgb;
 use crate::direct::Outlook;
 use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
 use crate::refine::strength;
+use crate::scene::area_vector;
 
 /// A patch with a lamp nearer than this many of its sizes is lit unevenly.
 const NEAR: f64 = 2.0;
@@ -80,14 +82,14 @@ pub(super) fn steep_means(
 fn doubt(mesh: &Mesh, leaf: ElementId) -> f64 {
     let Some(middle) = mesh.find_middle(leaf) else { return 0.0 };
     let at = |v: VertexId| mesh[v].direct.unwrap_or_default().irradiance;
-    let mean = |of: &[VertexId]| of.iter().map(|&v| at(v)).sum::<Rgb>() / of.len() as f64;
-    let [corners, edges] = [&mesh[leaf].corners[..], &middle.edges[..]].map(mean);
-    if mesh[leaf].corners.len() == 4 {
-        let centre = at(middle.centre);
-        let simpson = (corners + 4.0 * edges + 4.0 * centre) / 9.0;
-        return strength(simpson - (corners + 2.0 * edges + centre) / 4.0);
-    }
-    strength(edges - corners) / 4.0
+    let level = |of: &[VertexId]| of.iter().map(|&v| at(v)).sum::<Rgb>() / of.len() as f64;
+    let [corners, edges] = [&mesh[leaf].corners[..], &middle.edges[..]].map(level);
+    let trapezia = if mesh[leaf].corners.len() == 4 {
+        (corners + 2.0 * edges + at(middle.centre)) / 4.0
+    } else {
+        (corners + 3.0 * edges) / 4.0
+    };
+    strength(mean(mesh, leaf, at) - trapezia)
 }
 
 /// True if the light that is known on a patch varies.
@@ -114,20 +116,12 @@ impl Part<'_> {
 
     /// What arrives in its middle for all of it, W.
     fn power(&self) -> Rgb {
-        let [first, others @ ..] = self.corners.as_slice() else { return Rgb::ZERO };
-        let sides = others.windows(2).map(|pair| (pair[0] - *first).cross(pair[1] - *first));
-        let area = sides.sum::<DVec3>().length() / 2.0;
-        self.outlook.at(self.centre()).irradiance * area
+        self.outlook.at(self.centre()).irradiance * area_vector(&self.corners).length()
     }
 
-    /// Between each corner, the middles of the edges there, and its centre.
     fn parts(&self) -> impl Iterator<Item = Self> {
-        let (n, centre) = (self.corners.len(), self.centre());
-        (0..n).map(move |k| {
-            let [before, at, after] = [k + n - 1, k, k + 1].map(|k| self.corners[k % n]);
-            let corners = [at, at.midpoint(after), centre, before.midpoint(at)];
-            Self { corners: corners.into(), outlook: self.outlook }
-        })
+        let parts = quarters(&self.corners, self.centre(), DVec3::midpoint);
+        parts.map(|corners| Self { corners: corners.into(), outlook: self.outlook })
     }
 
     /// What arrives on it, W, if it seems to be `power`; right to about the `error` given.

@@ -94,7 +94,7 @@ pub(super) fn mean_direct(mesh: &Mesh, element: ElementId) -> Rgb {
 }
 
 /// Mean over a leaf of what is known at its corners and, it may be, in its middle: by Simpson's rule.
-fn mean(mesh: &Mesh, element: ElementId, at: impl Fn(VertexId) -> Rgb) -> Rgb {
+pub(super) fn mean(mesh: &Mesh, element: ElementId, at: impl Fn(VertexId) -> Rgb) -> Rgb {
     let corners = &mesh[element].corners;
     let mean =
         |values: &[VertexId]| values.iter().map(|&v| at(v)).sum::<Rgb>() / values.len() as f64;

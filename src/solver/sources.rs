@@ -154,17 +154,28 @@ impl Piece {
 
     /// Its parts between each corner, the middles of the edges there, and its centre.
     pub(super) fn parts(&self) -> SmallVec<[Self; 4]> {
-        let n = self.corners.len();
-        let centre = (self.centre(), self.mean());
-        let at = |k: usize| (self.corners[k % n], self.light[k % n]);
-        let half = |a: (DVec3, Rgb), b: (DVec3, Rgb)| ((a.0 + b.0) * 0.5, (a.1 + b.1) * 0.5);
-        let part = |k: usize| {
-            let outline = [at(k), half(at(k), at(k + 1)), centre, half(at(k + n - 1), at(k))];
-            let (corners, light) = outline.into_iter().unzip();
-            Self { corners, light }
+        let corners = quarters(&self.corners, self.centre(), |a, b| (a + b) * 0.5);
+        let light = quarters(&self.light, self.mean(), |a, b| (a + b) * 0.5);
+        let part = |(corners, light): ([DVec3; 4], [Rgb; 4])| Self {
+            corners: corners.into(),
+            light: light.into(),
         };
-        (0..n).map(part).collect()
+        corners.zip(light).map(part).collect()
     }
+}
+
+/// What is known at the corners of a polygon, on its parts: each is between a corner, the middles of the edges there, and
+/// the centre.
+pub(super) fn quarters<T: Copy>(
+    corners: &[T],
+    centre: T,
+    middle: impl Fn(T, T) -> T,
+) -> impl Iterator<Item = [T; 4]> {
+    let n = corners.len();
+    (0..n).map(move |k| {
+        let [before, at, after] = [k + n - 1, k, k + 1].map(|k| corners[k % n]);
+        [at, middle(at, after), centre, middle(before, at)]
+    })
 }
 
 /// v vᵀ.
