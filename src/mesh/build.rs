@@ -6,20 +6,29 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
+use super::landmarks::Landmarks;
 use super::{Corners, Element, ElementId, Mesh, Patch, PatchId, Reason, Vertex, VertexId};
 use crate::colour::Rgb;
 use crate::scene::boxes::{self, Tree, are_close};
 use crate::settings::Settings;
 use crate::surface::cut::{Cuts, convex_pieces};
 use crate::surface::polygon::{self, Convex, Segment};
-use crate::surface::{Cells, Plane, Surface, Surfaces, Weld, cell_key, cells_around};
+use crate::surface::{Cells, Plane, Surface, Surfaces, cell_key, cells_around};
 use crate::surface::{mean_reflectance, mean_texture};
 
 /// How far inside a border light is evaluated, in tolerances: well beyond what counts as touching it.
 const INSET: f64 = 50.0;
 
-/// Ends of cuts less than this many tolerances from a vertex are moved there.
-const CLOSE: f64 = 200.0;
+/// Ends of cuts nearer to a vertex on the same edge than this share of it are moved there: less would be slivers.
+const CLOSE: f64 = 1.0 / 32.0;
+
+/// But none is moved farther than so many of the shortest sides that elements may have.
+const FARTHEST: f64 = 4.0;
+
+/// Vertices of a surface are farther apart than so many tolerances, and than this share of its width if that is less:
+/// more than twice what counts as one place in the triangle mesh, so that no two of a surface become one there.
+const APART: f64 = 25.0;
+const APART_FOR_WIDTH: f64 = 0.01;
 
 /// Sine of the least angle by which an outline bends at a corner.
 const STRAIGHT: f64 = 1e-6;
@@ -33,10 +42,8 @@ pub(super) struct VertexIndex {
     sheets: Vec<Sheet>,
     /// Vertices by surface and place on it; at one place, where a contact line runs through it, one for each patch.
     cells: Cells,
-    /// Places of vertices in space, one of those that are close to each other.
-    landmarks: Weld,
-    /// How many vertices the landmarks know of: they are told when the first is looked for.
-    marked: usize,
+    /// Places of vertices of all surfaces.
+    landmarks: Landmarks,
     tolerance: f64,
 }
 
@@ -44,6 +51,8 @@ pub(super) struct VertexIndex {
 #[derive(Clone, Debug)]
 struct Sheet {
     plane: Plane,
+    /// Its vertices are farther apart than that, m.
+    apart: f64,
     /// Contact lines, and corners at which the surface bends round something: light may be another on
     /// each side.
     contacts: Vec<Segment>,
@@ -69,7 +78,7 @@ impl Mesh {
             elements: Vec::new(),
             vertices: Vec::new(),
             steep: BTreeMap::new(),
-            index: VertexIndex::new(surfaces),
+            index: VertexIndex::new(surfaces, settings),
             limit: settings.max_elements.unwrap_or(usize::MAX),
             is_full: false,
         };
@@ -87,9 +96,14 @@ impl Mesh {
         mesh
     }
 
+    /// Adds a patch with its element; none where the corners are so close together that they enclose nothing.
     fn add_patch(&mut self, surfaces: &Surfaces, number: u32, piece: Piece) {
         let Piece { outline, reflectance, exitance, contacts } = piece;
         let surface = &surfaces.list[number as usize];
+        let outline = self.settled(number, &outline);
+        if outline.len() < 3 || polygon::area(&outline) <= 0.0 {
+            return;
+        }
         let patch = PatchId(self.patches.len() as u32);
         let root = ElementId(self.elements.len() as u32);
         let area = polygon::area(&outline);
@@ -109,6 +123,19 @@ impl Mesh {
         self.elements.push(Element { patch, corners, children, level: 0, reason: None, area });
     }
 
+    /// An outline with its corners moved to vertices that are close to them, each passed once.
+    fn settled(&self, surface: u32, outline: &[DVec2]) -> Convex {
+        let apart = self.index.sheets[surface as usize].apart;
+        let mut settled = Convex::new();
+        for &corner in outline {
+            let corner = self.place(surface, corner).unwrap_or(corner);
+            if settled.iter().all(|other| other.distance(corner) > apart) {
+                settled.push(corner);
+            }
+        }
+        settled
+    }
+
     /// The vertex of a patch at a place on its surface's plane, made if there is none.
     pub(super) fn vertex(&mut self, patch: PatchId, position: DVec2) -> VertexId {
         let surface = self[patch].surface;
@@ -119,8 +146,7 @@ impl Mesh {
             return found;
         }
         let new = VertexId(self.vertices.len() as u32);
-        let key = cell_key(surface, position.extend(0.0), self.index.tolerance);
-        self.index.cells.add(key, new.0);
+        self.index.cells.add(self.index.key(surface, position), new.0);
         let site = self.site(patch, position);
         let (direct, indirect) = (None, None);
         self.vertices.push(Vertex { surface, patch, position, site, on_contact, direct, indirect });
@@ -135,18 +161,19 @@ impl Mesh {
 
     /// Where on a surface the first vertex is that counts as being at a position.
     fn place(&self, surface: u32, position: DVec2) -> Option<DVec2> {
-        let VertexIndex { cells, tolerance, .. } = &self.index;
-        let keys = cells_around(surface, position.extend(0.0), *tolerance);
+        let VertexIndex { cells, sheets, .. } = &self.index;
+        let apart = sheets[surface as usize].apart;
+        let keys = cells_around(surface, position.extend(0.0), apart);
         let vertices = keys.flat_map(|key| cells.of(key)).map(|number| &self[VertexId(number)]);
         let mut on_surface = vertices.filter(|vertex| vertex.surface == surface);
-        let first = on_surface.find(|vertex| vertex.position.distance(position) <= *tolerance);
+        let first = on_surface.find(|vertex| vertex.position.distance(position) <= apart);
         first.map(|vertex| vertex.position)
     }
 
     /// The vertex at exactly a place, that of the patch if a contact line runs through it.
     fn vertex_at(&self, place: DVec2, patch: PatchId, on_contact: bool) -> Option<VertexId> {
         let surface = self[patch].surface;
-        let key = cell_key(surface, place.extend(0.0), self.index.tolerance);
+        let key = self.index.key(surface, place);
         let is_it = |&id: &VertexId| {
             let vertex = &self[id];
             vertex.surface == surface
@@ -157,29 +184,29 @@ impl Mesh {
         self.index.cells.of(key).map(VertexId).find(is_it)
     }
 
-    /// The vertex of a patch at a place on an edge; where one is close by, of any surface, that place.
+    /// The vertex of a patch at a place on an edge; where one of any surface is close by on it, at that place.
     pub(super) fn vertex_on(&mut self, patch: PatchId, edge: Segment, position: DVec2) -> VertexId {
         self.mark();
         let Sheet { plane, .. } = &self.index.sheets[self[patch].surface as usize];
-        let landmarks = &self.index.landmarks;
-        let close =
-            landmarks.find(plane.lift(position)).map(|number| landmarks.places()[number as usize]);
+        let reach = CLOSE * edge[0].distance(edge[1]);
         let flat = |place: DVec3| {
             let flat = plane.flatten(place);
             let aside = polygon::distance(edge, flat).max(plane.lift(flat).distance(place));
-            (aside <= 0.1 * self.index.tolerance).then_some(flat)
+            (aside <= self.index.tolerance).then_some(flat)
         };
-        let position = close.and_then(flat).unwrap_or(position);
-        self.vertex(patch, position)
+        let close = self.index.landmarks.within(reach, plane.lift(position)).filter_map(flat);
+        let nearest = close
+            .min_by(|a, b| a.distance_squared(position).total_cmp(&b.distance_squared(position)));
+        self.vertex(patch, nearest.unwrap_or(position))
     }
 
     /// Makes landmarks of the vertices that are none yet.
     fn mark(&mut self) {
-        for vertex in &self.vertices[self.index.marked..] {
-            let plane = &self.index.sheets[vertex.surface as usize].plane;
-            self.index.landmarks.number(plane.lift(vertex.position));
+        let VertexIndex { sheets, landmarks, .. } = &mut self.index;
+        for vertex in &self.vertices[landmarks.marked..] {
+            landmarks.add(sheets[vertex.surface as usize].plane.lift(vertex.position));
         }
-        self.index.marked = self.vertices.len();
+        landmarks.marked = self.vertices.len();
     }
 
     /// Another vertex at the same place, for the light there on the side of a place inside.
@@ -202,9 +229,8 @@ impl Mesh {
 
     fn on_contact(&self, patch: PatchId, position: DVec2) -> bool {
         let Patch { surface, contacts, .. } = &self[patch];
-        let segments = &self.index.sheets[*surface as usize].contacts;
-        let tolerance = self.index.tolerance;
-        contacts.iter().any(|&c| polygon::distance(segments[c as usize], position) <= tolerance)
+        let Sheet { contacts: segments, apart, .. } = &self.index.sheets[*surface as usize];
+        contacts.iter().any(|&c| polygon::distance(segments[c as usize], position) <= *apart)
     }
 
     /// Where to evaluate light for a place on a patch: moved inwards until it is a hair away from
@@ -240,8 +266,16 @@ impl Mesh {
 /// The outlines of the patches of a surface.
 fn outlines((surfaces, surface): (&Surfaces, &Surface), settings: &Settings) -> Vec<Convex> {
     let size = settings.patch_length(surfaces.extent.max(surface.extent()));
-    let cuts = Cuts { segments: &surface.contacts, size, tolerance: surfaces.tolerance };
+    let cuts = Cuts { segments: &surface.contacts, size, tolerance: apart(surfaces, surface) };
     convex_pieces(&surface.rings, &cuts)
+}
+
+/// How far apart the vertices of a surface are at least, m.
+fn apart(surfaces: &Surfaces, surface: &Surface) -> f64 {
+    let edges = surface.rings.iter().flat_map(|ring| polygon::edges(ring));
+    let perimeter: f64 = edges.map(|[a, b]| a.distance(b)).sum();
+    let width = 2.0 * surface.area() / perimeter.max(f64::MIN_POSITIVE);
+    (APART * surfaces.tolerance).min(APART_FOR_WIDTH * width).max(surfaces.tolerance)
 }
 
 /// How many patches each surface will be divided into: much quicker told than made.
@@ -251,27 +285,34 @@ pub fn patch_counts(surfaces: &Surfaces, settings: &Settings) -> Vec<usize> {
 }
 
 impl VertexIndex {
-    fn new(surfaces: &Surfaces) -> Self {
+    fn new(surfaces: &Surfaces, settings: &Settings) -> Self {
         let tolerance = surfaces.tolerance;
         let sheet = |surface: &Surface| Sheet {
             plane: surface.plane,
+            apart: apart(surfaces, surface),
             contacts: surface.contacts.iter().copied().chain(inner_corners(surface)).collect(),
         };
         let sheets = surfaces.list.iter().map(sheet).collect();
-        let landmarks = Weld::new(CLOSE * tolerance);
-        Self { sheets, cells: Cells::default(), landmarks, marked: 0, tolerance }
+        let farthest = FARTHEST * settings.min_element.metres(surfaces.extent);
+        let landmarks = Landmarks::new(tolerance, farthest.max(tolerance));
+        Self { sheets, cells: Cells::default(), landmarks, tolerance }
+    }
+
+    /// The cell around a place on a surface.
+    fn key(&self, surface: u32, place: DVec2) -> u64 {
+        cell_key(surface, place.extend(0.0), self.sheets[surface as usize].apart)
     }
 
     /// The pieces of a surface, in the order of its patches.
     fn pieces(&self, surfaces: &Surfaces, number: u32, settings: &Settings) -> Vec<Piece> {
         let surface = &surfaces.list[number as usize];
-        let contacts = &self.sheets[number as usize].contacts;
+        let Sheet { contacts, apart, .. } = &self.sheets[number as usize];
         let flat = |segment: &Segment| boxes::around(segment.map(|p| p.extend(0.0)));
         let tree = Tree::new(contacts.iter().map(flat).collect());
         let piece = |outline: Convex| Piece {
             reflectance: mean_reflectance(surfaces, surface, &outline),
             exitance: surface.exitance * mean_texture(surfaces, surface, &outline)[1],
-            contacts: touching((contacts, &tree), &outline, self.tolerance),
+            contacts: touching((contacts, &tree), &outline, *apart),
             outline,
         };
         outlines((surfaces, surface), settings).into_iter().map(piece).collect()

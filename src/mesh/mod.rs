@@ -2,6 +2,7 @@
 
 mod build;
 mod ids;
+mod landmarks;
 mod split;
 mod statistics;
 mod validate;

@@ -49,7 +49,8 @@ impl Mesh {
         let parent = &self[element];
         assert!(parent.is_leaf(), "element {} is divided already", element.0);
         let (patch, level) = (parent.patch, parent.level + 1);
-        let parts = self.parts(element, split);
+        let parts = self.parts(element, split).into_iter().filter_map(outlining);
+        let parts: SmallVec<[Corners; 4]> = parts.collect();
         let first = self.elements.len() as u32;
         for corners in &parts {
             let area = self.area_of(corners);
@@ -172,4 +173,14 @@ impl Mesh {
             [[c[0], m[0], m[2]], [m[0], c[1], m[1]], [m[2], m[1], c[2]], [m[0], m[1], m[2]]];
         quarters.iter().map(|quarter| Corners::from_slice(quarter)).collect()
     }
+}
+
+/// The corners of a part, each once; nothing where they enclose nothing, as beside an edge that is too short to be
+/// divided.
+fn outlining(mut corners: Corners) -> Option<Corners> {
+    corners.dedup();
+    while corners.len() > 1 && corners.first() == corners.last() {
+        corners.pop();
+    }
+    (corners.len() > 2).then_some(corners)
 }

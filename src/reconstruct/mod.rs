@@ -32,11 +32,17 @@ pub(crate) use triangulate::triangulate;
 
 use sheet::Sheet;
 
+/// What is nearer than so many tolerances is one place: no two vertices of a mesh are, but those of one place.
+pub(crate) const ONE_PLACE: f64 = 10.0;
+
+/// Places less than so many tolerances from an edge are on it: more than vertices are moved to meet others.
+pub(crate) const ON_EDGE: f64 = 30.0;
+
 /// The triangle mesh of a solution.
 pub fn reconstruct(surfaces: &Surfaces, solution: &Solution) -> TriMesh {
     let mesh = &solution.mesh;
     let leaves = leaves_by_surface(surfaces, mesh);
-    let mut weld = Weld::new(surfaces.tolerance);
+    let mut weld = Weld::new(ONE_PLACE * surfaces.tolerance);
     let outlines: Vec<Vec<Vec<u32>>> = leaves
         .iter()
         .enumerate()
@@ -49,7 +55,7 @@ pub fn reconstruct(surfaces: &Surfaces, solution: &Solution) -> TriMesh {
             leaves.iter().map(outline).collect()
         })
         .collect();
-    let places = Places::new(&weld, surfaces.extent, surfaces.tolerance);
+    let places = Places::new(&weld, surfaces.extent, ON_EDGE * surfaces.tolerance);
     let mut sheets: Vec<Sheet> = (0..leaves.len())
         .into_par_iter()
         .map(|surface| {

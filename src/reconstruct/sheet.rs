@@ -46,7 +46,15 @@ pub(super) struct Corner {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Source {
     Vertex(VertexId),
-    Between(u32, VertexId, VertexId),
+    Between(VertexId, VertexId),
+}
+
+/// A place on the way around a leaf: the first of an edge of it, or one that hangs there.
+#[derive(Clone, Copy, Debug)]
+struct Stop {
+    place: u32,
+    edge: usize,
+    hangs: bool,
 }
 
 /// Sums over the leaves that share a corner, by area.
@@ -62,7 +70,7 @@ struct Builder<'a> {
     mesh: &'a Mesh,
     surface: &'a Surface,
     places: &'a Places,
-    numbers: HashMap<Source, u32>,
+    numbers: HashMap<(u32, Source), u32>,
     corners: Vec<Corner>,
     looks: Vec<Look>,
     hanging: Vec<u32>,
@@ -115,23 +123,29 @@ impl Sheet {
 }
 
 impl Builder<'_> {
-    /// A leaf's outline with the places that hang on it, and the corners there.
+    /// A leaf's outline with the places that hang on it, and the corners there; nothing if it encloses nothing.
     fn outline(&mut self, leaf: &Element, outline: &[u32], look: Look) -> (Vec<u32>, Vec<u32>) {
-        let (mut places, mut corners) = (Vec::new(), Vec::new());
-        for (k, (&place, &vertex)) in outline.iter().zip(&leaf.corners).enumerate() {
-            let next = (k + 1) % outline.len();
-            let light = arriving(&self.mesh[vertex]);
-            places.push(place);
-            corners.push(self.corner(Source::Vertex(vertex), place, light, look));
-            let ends = (vertex, leaf.corners[next]);
-            for hanging in self.places.between(place, outline[next]) {
-                let (source, light) = self.hanging(leaf, ends, (place, outline[next]), hanging);
-                places.push(hanging);
-                self.hanging.push(hanging);
-                corners.push(self.corner(source, hanging, light, look));
+        let next = |k: usize| (k + 1) % outline.len();
+        let stops = (0..outline.len()).flat_map(|edge| {
+            let hanging = self.places.between(outline[edge], outline[next(edge)]);
+            let corner = Stop { place: outline[edge], edge, hangs: false };
+            let hang = move |place| Stop { place, edge, hangs: true };
+            [corner].into_iter().chain(hanging.into_iter().map(hang))
+        });
+        let stops = without_spikes(stops.collect());
+        let corner = |&Stop { place, edge, hangs }: &Stop| {
+            let ends = (leaf.corners[edge], leaf.corners[next(edge)]);
+            if !hangs {
+                let light = arriving(&self.mesh[ends.0]);
+                return self.corner(Source::Vertex(ends.0), place, light, look);
             }
-        }
-        (places, corners)
+            self.hanging.push(place);
+            let span = (outline[edge], outline[next(edge)]);
+            let (source, light) = self.hanging(leaf, ends, span, place);
+            self.corner(source, place, light, look)
+        };
+        let corners = stops.iter().map(corner).collect();
+        (stops.iter().map(|stop| stop.place).collect(), corners)
     }
 
     /// Light at a place on an edge: what is known there, else what is interpolated along the edge.
@@ -151,11 +165,11 @@ impl Builder<'_> {
         let share = at(from).distance(at(place)) / at(from).distance(at(to));
         let [a_light, b_light] = [a, b].map(|v| arriving(&self.mesh[v]));
         let light = a_light.lerp(b_light, share);
-        (Source::Between(place, a.min(b), a.max(b)), light)
+        (Source::Between(a.min(b), a.max(b)), light)
     }
 
     fn corner(&mut self, source: Source, place: u32, irradiance: Irradiance, look: Look) -> u32 {
-        let number = *self.numbers.entry(source).or_insert_with(|| {
+        let number = *self.numbers.entry((place, source)).or_insert_with(|| {
             let position = self.surface.plane.flatten(self.places.at(place));
             let corner = Corner {
                 place,
@@ -219,6 +233,20 @@ impl Builder<'_> {
             Corner { radiosity, texture_mean, ..corner }
         };
         self.corners.into_iter().zip(self.looks).map(with_light).collect()
+    }
+}
+
+/// A way around without what leads to a place and straight back, or only stays: it encloses nothing.
+fn without_spikes(mut stops: Vec<Stop>) -> Vec<Stop> {
+    loop {
+        let n = stops.len();
+        let at = |k: usize| stops[k % n].place;
+        let Some(k) = (0..n).find(|&k| at(k) == at(k + 1) || at(k) == at(k + 2)) else {
+            return stops;
+        };
+        let needless = if at(k) == at(k + 1) { vec![k] } else { vec![(k + 1) % n, (k + 2) % n] };
+        let mut index = 0..;
+        stops.retain(|_| !index.next().is_some_and(|k| needless.contains(&k)));
     }
 }
 

@@ -10,6 +10,9 @@ use crate::surface::Weld;
 /// Cells along the scene's diagonal; an edge passes few of them.
 const CELLS: f64 = 160.0;
 
+/// By how much of the way from the nearer end a place on an edge may be aside of it.
+const SLOPE: f64 = 0.1;
+
 /// The corners of all leaves, each place once, found by where they are.
 #[derive(Debug)]
 pub(crate) struct Places {
@@ -48,8 +51,9 @@ impl Places {
             let offset = self.at(place) - from;
             let position = offset.dot(along);
             let aside = (offset - along * position).length();
-            let inside = position > self.tolerance && position < length - self.tolerance;
-            let between = place != a && place != b && inside && aside <= self.tolerance;
+            // Beside an end, what is on another edge from there must not count.
+            let most = self.tolerance.min(SLOPE * position.min(length - position));
+            let between = place != a && place != b && aside <= most;
             between.then_some((position, place))
         };
         let mut found: Vec<(f64, u32)> = self.within(low, high).filter_map(measured).collect();

@@ -24,7 +24,7 @@ const SNAP: f64 = 0.15;
 
 /// Numbers of equal parts of an edge between which neighbours, dividing it again and again, may have
 /// vertices. Ends of cuts nearer to one than an eighth of a part are moved there: less would be slivers.
-const HALVINGS: [f64; 3] = [2.0, 4.0, 8.0];
+const HALVINGS: [f64; 5] = [2.0, 4.0, 8.0, 16.0, 32.0];
 
 /// All other cuts end at multiples of this share of an edge, so that those of neighbours meet or keep apart.
 const NOTCHES: f64 = 256.0;
