@@ -21,7 +21,7 @@ pub(crate) struct PageOptions {
     /// Page to write: the lit mesh to turn in any browser, its picture and figures, in one file
     ///
     /// It needs no network and no other file. Radiosity in false colours, levels of elements, why they
-    /// were made, and the triangles are shown at will.
+    /// were made, the triangles, and the light without textures are shown at will.
     #[arg(long, value_name = "FILE.html")]
     pub(crate) html: Option<PathBuf>,
 

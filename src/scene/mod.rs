@@ -52,7 +52,7 @@ pub use photometry::Photometry;
 pub(crate) use polygon::area_vector;
 pub use sides::{Sides, settle_sides};
 pub use texels::Texels;
-pub(crate) use texture::decode;
+pub(crate) use texture::{decode, mean};
 pub use up::Up;
 
 /// A scene of polygons, in metres.
