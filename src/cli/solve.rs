@@ -153,7 +153,8 @@ impl Solve {
         let grid = self.grid.read(&places, solved, &interrupt, &mut meter)?;
         let mut summary = Summary::new(&surfaces, &solution, &mesh);
         let account = Account {
-            scene: &self.scene.path,
+            path: &self.scene.path,
+            scene: &scene,
             mesh: &mesh,
             solved,
             stages: &stages,
@@ -161,13 +162,12 @@ impl Solve {
             display: display(&mesh, exposure),
             summary: &summary,
             settings: &settings_record,
-            notes: &scene.notes,
         };
         self.page.write(&account, &self.picture, &interrupt, &mut meter)?;
         summary.finished &= interrupt.is_whole();
         let outcome = Outcome {
             scene: self.scene.path.clone(),
-            photometric: self.scene.is_photometric(),
+            photometric: scene.photometric,
             summary,
             grid,
             settings: settings_record,

@@ -75,6 +75,8 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// Lights without a surface.
     pub lights: Vec<NamedLight>,
+    /// True if light was added by lumens, candela or lux: then people want to be told of light in lumens, too.
+    pub photometric: bool,
     /// Views the file offers, in its order.
     pub cameras: Vec<Camera>,
     /// Repairs and warnings, a line each, for the user to read.
