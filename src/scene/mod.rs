@@ -16,6 +16,7 @@ mod junctions;
 mod light;
 mod load;
 mod material;
+mod mixed;
 mod named;
 mod names;
 mod notes;
