@@ -86,6 +86,12 @@ impl File {
             let decoded = url.decode_to_vec();
             return Ok(decoded.map_err(|error| self.fail(format!("data: URI: {error}")))?.0);
         }
+        let path = self.beside(uri, notes)?;
+        fs::read(&path).map_err(Error::io(&path))
+    }
+
+    /// The file that a URI is about, beside this one; if there is none, where it should be.
+    fn beside(&self, uri: &str, notes: &mut Vec<String>) -> Result<PathBuf> {
         if uri.contains("://") && !uri.to_ascii_lowercase().starts_with("file:") {
             return Err(
                 self.fail(format!("\"{uri}\": only data: URIs and relative paths are read"))
@@ -97,24 +103,15 @@ impl File {
         // Exporters also write names as they are, with escapes in them.
         let as_written = Some(folder.join(uri)).filter(|path| path.is_file());
         let path = as_written.or_else(|| find(folder, &name, notes));
-        let path = path.unwrap_or_else(|| folder.join(name.as_ref()));
-        fs::read(&path).map_err(Error::io(&path))
+        Ok(path.unwrap_or_else(|| folder.join(name.as_ref())))
     }
 
-    /// Where the file behind a relative URI may be.
-    fn beside(&self, uri: &str) -> Vec<PathBuf> {
-        let folder = self.path.parent().unwrap_or(Path::new(""));
-        let name = percent_decode_str(uri).decode_utf8().unwrap_or_default();
-        let found = find(folder, &name, &mut Vec::new());
-        [folder.join(uri), folder.join(name.as_ref())].into_iter().chain(found).collect()
-    }
-
-    /// The file itself, and all places of those that it refers to.
+    /// The file itself, and all that it refers to; those that cannot be read are told of when they are to be.
     pub(super) fn files(&self) -> Vec<PathBuf> {
         let buffers = self.root.buffers.iter().filter_map(|buffer| buffer.uri.as_deref());
         let images = self.root.images.iter().filter_map(|image| image.uri.as_deref());
         let relative = buffers.chain(images).filter(|uri| !uri.starts_with("data:"));
-        let beside = relative.flat_map(|uri| self.beside(uri));
+        let beside = relative.filter_map(|uri| self.beside(uri, &mut Vec::new()).ok());
         [self.path.clone()].into_iter().chain(beside).collect()
     }
 
