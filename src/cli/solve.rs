@@ -8,6 +8,7 @@ use radiosity::colour::Rgb;
 use radiosity::export::{self, Stamp};
 use radiosity::lightmap::Atlas;
 use radiosity::mesh::Direct;
+use radiosity::reconstruct::mesh_pictures;
 use radiosity::render::{self, Solved, Subject};
 use radiosity::scene::Camera;
 use radiosity::solver::Stop;
@@ -221,7 +222,7 @@ impl Solve {
         let scene = self.scene.load_lit(|line| meter.tell(line))?;
         memory.check_needs(&self.needs(&scene), "for the scene's faces")?;
         let camera = self.picture.choose_camera(&scene.cameras)?;
-        self.outputs().check(&scene.files, &scene.textures)?;
+        self.outputs().check(&scene.files, &mesh_pictures(&scene))?;
         Ok((scene, camera))
     }
 

@@ -10,8 +10,19 @@ use glam::Vec2;
 
 use super::sheet::{Corner, Sheet};
 use crate::colour::Rgb;
-use crate::scene::Texture;
+use crate::scene::{Material, Scene, Texture};
 use crate::surface::{Surface, Surfaces};
+
+/// The pictures that the mesh of a scene may have, by their numbers: those of the scene and, empty as long as there is
+/// no light, one for each material that shines and has a picture.
+pub fn mesh_pictures(scene: &Scene) -> Vec<Texture> {
+    let has_picture = |material: &&Material| {
+        let picture = material.texture.or(material.emission_texture);
+        material.emission.max_element() > 0.0 && picture.is_some()
+    };
+    let shining = scene.materials.iter().filter(has_picture).map(|_| Texture::default());
+    scene.textures.iter().cloned().chain(shining).collect()
+}
 
 /// What the picture of a material that shines is made of.
 #[derive(Debug)]

@@ -25,6 +25,7 @@ use crate::surface::{Surfaces, Weld};
 pub use angles::Angles;
 pub use by_light::{LightShare, reconstruct_by_light};
 pub use dimming::Dimming;
+pub use glow::mesh_pictures;
 pub use trimesh::{Irradiance, Part, TriMesh};
 
 pub(crate) use normal::normal_at;
