@@ -3,7 +3,7 @@
 mod common;
 
 use base64::Engine as _;
-use glam::DVec3;
+use glam::{DVec3, Vec2};
 use proptest::prelude::*;
 use radiosity::TriMesh;
 use radiosity::colour::Rgb;
@@ -11,7 +11,7 @@ use radiosity::page::{
     self, Cell, Markup, Model, Step, Table, Viewer, WipePicture, columns, facts, html,
 };
 use radiosity::reconstruct::Part;
-use radiosity::scene::Camera;
+use radiosity::scene::{Camera, Sampler, Texture, Wrap};
 use serde_json::{Value, json};
 
 /// A PNG of one pixel: its header is all that pages read.
@@ -244,13 +244,101 @@ proptest! {
     }
 }
 
-#[test]
-fn a_viewer_says_that_pictures_on_surfaces_are_left_out() {
-    let told = |texture| {
-        let mut mesh = waves(2);
-        let triangles = 0..mesh.triangles.len();
-        mesh.parts.push(Part { triangles, texture, ..Part::default() });
-        viewer(&[step("", Model::of_mesh(&mesh))], "").into_string().contains("left out here")
+/// A square with a picture of red and blue texels on its first half, read as `sampler` says, and holes in it.
+fn pictured(sampler: Sampler, side: u32) -> TriMesh {
+    let mut mesh = waves(2);
+    let count = mesh.positions.len();
+    mesh.uvs = mesh.positions.iter().map(|p| Vec2::new(p.x as f32, p.z as f32)).collect();
+    mesh.texture_mean = vec![Rgb::new(0.25, 0.5, 0.5); count];
+    let colours = [[0.5, 0.0, 0.0], [0.0, 0.0, 0.25]];
+    let texels: Vec<[f32; 3]> = (0..side * side).map(|at| colours[(at % 2) as usize]).collect();
+    let alpha = (0..side * side).map(|at| (at % 256) as u8).collect();
+    let texture = Texture {
+        width: side,
+        height: side,
+        texels: texels.into(),
+        alpha,
+        sampler,
+        ..Texture::default()
     };
-    assert_eq!([Some(0), None].map(told), [true, false]);
+    mesh.textures = vec![Texture::default(), texture];
+    let on = |triangles, texture, cutoff| Part { triangles, texture, cutoff, ..Part::default() };
+    mesh.parts = vec![
+        on(0..2, None, None),
+        on(2..3, Some(1), Some(0.25)),
+        on(3..5, Some(1), Some(0.25)),
+        on(5..8, Some(1), None),
+    ];
+    mesh
+}
+
+/// The picture that a record's scripts are to show, as it is decoded.
+fn picture_of(record: &Value) -> image::DynamicImage {
+    let chunk = record["pictures"][0]["chunk"].as_u64().expect("there is a picture");
+    let text = record["chunks"][chunk as usize].as_str().expect("a chunk is a text");
+    let bytes = base64::engine::general_purpose::STANDARD.decode(text).expect("it is base64");
+    image::load_from_memory(&bytes).expect("it is a picture")
+}
+
+#[test]
+fn pictures_on_surfaces_are_there_with_the_light_that_they_are_multiplied_by() {
+    let sampler = Sampler { wrap: [Wrap::Mirror, Wrap::Clamp], nearest: true };
+    let mesh = pictured(sampler, 4);
+    let record = record(&[step("a", Model::of_mesh(&mesh)), step("b", Model::of_mesh(&mesh))]);
+    let runs = json!([
+        { "corners": 6, "picture": null, "cutoff": null },
+        { "corners": 9, "picture": 0, "cutoff": 0.25 },
+        { "corners": 9, "picture": 0, "cutoff": null },
+    ]);
+    assert_eq!(record["steps"][0]["runs"], runs);
+    let pictures = record["pictures"].as_array().expect("a list");
+    assert_eq!(pictures.len(), 1);
+    let expected = json!({
+        "mime": "image/png", "chunk": pictures[0]["chunk"], "white": 0.5, "mean": [0.25, 0.0, 0.125],
+        "wrap": ["mirror", "clamp"], "nearest": true,
+    });
+    assert_eq!(pictures[0], expected);
+    // Divided by its white, in sRGB: 1 and 0.5.
+    let picture = picture_of(&record).to_rgba8();
+    assert_eq!(
+        [picture.get_pixel(2, 0).0, picture.get_pixel(3, 0).0],
+        [[255, 0, 0, 2], [0, 0, 188, 3]]
+    );
+    let uvs = numbers(&list(&record, 0, "uvs"), f32::from_le_bytes);
+    assert!(uvs.chunks_exact(2).map(Vec2::from_slice).eq(mesh.uvs.iter().copied()));
+    let unit = record["steps"][0]["unit"].as_f64().unwrap();
+    for (vertex, bits) in
+        numbers(&list(&record, 0, "radiosity"), u32::from_le_bytes).iter().enumerate()
+    {
+        let step = unit * 2.0_f64.powi((bits >> 27) as i32 - 24);
+        let found = Rgb::from_array([0, 9, 18].map(|shift| f64::from(bits >> shift & 511) * step));
+        let expected = mesh.radiosity[vertex] / mesh.texture_mean[vertex];
+        let error = (found - expected).abs().max_element();
+        assert!(error <= expected.max_element() / 500.0, "{found} {expected}");
+    }
+}
+
+#[test]
+fn large_pictures_are_kept_small_and_a_page_says_so() {
+    let told = |side| {
+        let text = viewer(&[step("", Model::of_mesh(&pictured(Sampler::default(), side)))], "")
+            .into_string();
+        let picture = picture_of(&json_after(&text, "<script type=\"application/json\">"));
+        (picture.width(), picture.height(), text.contains("2048 texels a side at most"))
+    };
+    assert_eq!([told(2048), told(2050)], [(2048, 2048, false), (1025, 1025, true)]);
+}
+
+#[test]
+fn a_page_without_pictures_on_surfaces_carries_nothing_for_them() {
+    let mut mesh = waves(2);
+    let plain = viewer(&[step("", Model::of_mesh(&mesh))], "").into_string();
+    for part in ["pictures", "runs", "uvs"] {
+        assert!(!plain.contains(part), "{part}");
+    }
+    // What has no texels, or no coordinates, is no picture.
+    let triangles = 0..mesh.triangles.len();
+    mesh.parts.push(Part { triangles, texture: Some(0), ..Part::default() });
+    mesh.textures.push(Texture::default());
+    assert_eq!(viewer(&[step("", Model::of_mesh(&mesh))], "").into_string(), plain);
 }

@@ -32,6 +32,58 @@ const place = (page, kind, number, selector) =>
     return { left, width, x: left + width / 2, y: top + height / 2 };
   }, kind, number, selector);
 
+// Most that the mean light of a viewer without what lies on its surfaces may be from that with it, as a share: what is
+// seen of a picture is not all of it, and where it is dark the tone curve takes less off.
+const CHANGED = 0.15;
+
+// Most that the channels of a viewer's light may be from those of its still picture, our own PNG of the same view, on
+// average where that is not black, as it is beyond the scene and on backs; of 255. Edges are smoothed otherwise.
+const FAR = 1;
+
+// How far a viewer's drawing is from its still picture, and their mean light; nothing without a still picture.
+const fromStill = async (page, viewer) => {
+  await canvas(page, viewer);
+  return page.evaluate((number) => {
+    const still = part("viewer", number, ".still img");
+    const shown = part("viewer", number, "canvas");
+    if (!still) return null;
+    const [width, height] = [still.naturalWidth, still.naturalHeight];
+    // A view is as high as another; the wider one has more at its sides.
+    const whole = shown.height * (width / height);
+    const copied = (source, left, across, down) => {
+      const copy = new OffscreenCanvas(width, height).getContext("2d");
+      copy.fillRect(0, 0, width, height);
+      copy.drawImage(source, left, 0, across, down, 0, 0, width, height);
+      return copy.getImageData(0, 0, width, height).data.filter((_, i) => i % 4 < 3);
+    };
+    const all = copied(still, 0, width, height);
+    const isLit = (_, i) => all.subarray(i - (i % 3), i - (i % 3) + 3).some((x) => x > 0);
+    const ours = all.filter(isLit);
+    const theirs = copied(shown, (shown.width - whole) / 2, whole, shown.height).filter(isLit);
+    const mean = (values, what) => values.reduce((sum, x, i) => sum + what(x, i), 0) / values.length;
+    const linear = (code) => (code / 255) ** 2.2;
+    return { far: mean(ours, (x, i) => Math.abs(x - theirs[i])), light: [mean(ours, linear), mean(theirs, linear)] };
+  }, viewer);
+};
+
+// The light is that of our own picture, and what lies on surfaces can be taken away and put back.
+async function pictured(page, number) {
+  const first = await fromStill(page, number);
+  if (!first) return;
+  must(first.far < FAR, `light is ${first.far.toFixed(2)} of 255 from the still picture`);
+  const toggles = await page.evaluate((n) => parts("viewer", n, ".toggle").map((toggle) => toggle.textContent), number);
+  const textures = toggles.indexOf("Textures");
+  if (textures < 0) return;
+  const before = await canvas(page, number);
+  await click(page, "viewer", number, ".toggle input", textures);
+  const plain = await fromStill(page, number);
+  must(plain.far > first.far + 1, `without its pictures a surface is ${plain.far.toFixed(2)} of 255 from what it is with them`);
+  const [still, alone] = plain.light;
+  must(Math.abs(alone / still - 1) < CHANGED, `light alone is ${(alone / still).toFixed(2)} times that of the still picture`);
+  await click(page, "viewer", number, ".toggle input", textures);
+  must((await canvas(page, number)) === before, "pictures on surfaces do not come back");
+}
+
 // Every mode, the mesh over it, the sliders, dragging and keys change the picture.
 export async function viewer(page, number) {
   const modes = await count(page, "viewer", number, ".choice input");
@@ -51,6 +103,7 @@ export async function viewer(page, number) {
     seen.add(plain);
   }
   await click(page, "viewer", number, ".choice input", 0);
+  await pictured(page, number);
   await sliders(page, number);
   await movement(page, number);
 }

@@ -6,13 +6,13 @@ use clap::Args;
 use radiosity::page::{self, Cell, Markup, Model, Step, Table, Viewer, html};
 use radiosity::render::{Display, Solved, Subject, View, png};
 use radiosity::scene::Camera;
-use radiosity::{Result, Solution, TriMesh, reconstruct};
+use radiosity::{Result, Scene, Solution, TriMesh, reconstruct};
 
 use super::interrupt::Interrupt;
 use super::meter::{Meter, Timing};
 use super::options::PictureOptions;
 use super::record::SettingsRecord;
-use super::summary::Summary;
+use super::summary::{Balance, Summary};
 
 /// The page to write, and what may be seen in it.
 #[derive(Debug, Args)]
@@ -21,7 +21,7 @@ pub(crate) struct PageOptions {
     /// Page to write: the lit mesh to turn in any browser, its picture and figures, in one file
     ///
     /// It needs no network and no other file. Radiosity in false colours, levels of elements, why they
-    /// were made, and the triangles are shown at will.
+    /// were made, the triangles, and the light without textures are shown at will.
     #[arg(long, value_name = "FILE.html")]
     pub(crate) html: Option<PathBuf>,
 
@@ -37,7 +37,8 @@ pub(crate) struct PageOptions {
 /// What a page tells of a solution.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Account<'a> {
-    pub(crate) scene: &'a Path,
+    pub(crate) path: &'a Path,
+    pub(crate) scene: &'a Scene,
     pub(crate) mesh: &'a TriMesh,
     pub(crate) solved: Solved<'a>,
     /// The light on its way.
@@ -46,7 +47,6 @@ pub(crate) struct Account<'a> {
     pub(crate) display: Display,
     pub(crate) summary: &'a Summary,
     pub(crate) settings: &'a SettingsRecord,
-    pub(crate) notes: &'a [String],
 }
 
 impl PageOptions {
@@ -94,7 +94,7 @@ impl PageOptions {
         });
         picture.unfinished |= !interrupt.is_whole();
         let still = png(&picture, &account.display);
-        let title = title(account.scene);
+        let title = title(account.path);
         let viewer = Viewer {
             steps: &steps,
             camera: account.camera,
@@ -121,32 +121,35 @@ fn last_step(account: &Account<'_>) -> Step {
     Step { label: format!("end: {}", account.summary.stop), model }
 }
 
-fn title(scene: &Path) -> String {
-    scene.file_stem().unwrap_or(scene.as_os_str()).to_string_lossy().into_owned()
+fn title(path: &Path) -> String {
+    path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
 fn body(account: &Account<'_>, viewer: &Viewer<'_>, seconds: &[Timing]) -> Markup {
-    let Account { scene, summary, .. } = account;
+    let Account { path, scene, summary, .. } = account;
     let total: f64 = seconds.iter().map(|timing| timing.seconds).sum();
     html! {
-        h1 { (title(scene)) }
+        h1 { (title(path)) }
         p.lead {
             "Lit by adaptive radiosity: " (summary.leaves) " elements, " (summary.triangles)
             " triangles, " (format!("{total:.1}")) " s."
         }
         (page::viewer(viewer))
-        @for note in account.notes { p { "Note: " (note) } }
+        @for note in &scene.notes { p { "Note: " (note) } }
         div.columns {
             div { h2 { "Solution" } (page::facts(&facts(account))) }
-            div { h2 { "Where the power went" } (energy(summary)) h2 { "Time" } (times(seconds)) }
+            div {
+                h2 { "Where the power went" } (energy(summary, scene.photometric))
+                h2 { "Time" } (times(seconds))
+            }
         }
     }
 }
 
 fn facts(account: &Account<'_>) -> Vec<(&'static str, String)> {
-    let Account { scene, summary, settings, .. } = account;
+    let Account { path, summary, settings, .. } = account;
     vec![
-        ("Scene", scene.display().to_string()),
+        ("Scene", path.display().to_string()),
         ("Surfaces", format!("{}, {} patches", summary.surfaces, summary.patches)),
         ("Elements", format!("{}, {} of them leaves", summary.elements, summary.leaves)),
         ("Divided", summary.divided.to_string()),
@@ -157,15 +160,18 @@ fn facts(account: &Account<'_>) -> Vec<(&'static str, String)> {
     ]
 }
 
-fn energy(summary: &Summary) -> Markup {
+fn energy(summary: &Summary, photometric: bool) -> Markup {
     let row = |name: &str, power: [f64; 3]| {
-        let watts = power.map(|watts| Cell::number(watts, 4));
-        [Cell::text(name)].into_iter().chain(watts).collect()
+        let numbers = match photometric {
+            true => vec![Cell::number(Balance::lumens(power), 1)],
+            false => power.map(|watts| Cell::number(watts, 4)).to_vec(),
+        };
+        [Cell::text(name)].into_iter().chain(numbers).collect()
     };
     let powers = &summary.energy;
     page::table(&Table {
         caption: &format!("Imbalance {:.3} % of the emitted power", 100.0 * powers.imbalance),
-        header: &["Power, W", "red", "green", "blue"],
+        header: if photometric { &["Flux", "lm"] } else { &["Power, W", "red", "green", "blue"] },
         rows: vec![
             row("emitted", powers.emitted),
             row("absorbed", powers.absorbed),

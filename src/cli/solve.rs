@@ -8,6 +8,7 @@ use radiosity::colour::Rgb;
 use radiosity::export::{self, Stamp};
 use radiosity::lightmap::Atlas;
 use radiosity::mesh::Direct;
+use radiosity::reconstruct::mesh_pictures;
 use radiosity::render::{self, Solved, Subject};
 use radiosity::scene::Camera;
 use radiosity::solver::Stop;
@@ -153,7 +154,8 @@ impl Solve {
         let grid = self.grid.read(&places, solved, &interrupt, &mut meter)?;
         let mut summary = Summary::new(&surfaces, &solution, &mesh);
         let account = Account {
-            scene: &self.scene.path,
+            path: &self.scene.path,
+            scene: &scene,
             mesh: &mesh,
             solved,
             stages: &stages,
@@ -161,13 +163,12 @@ impl Solve {
             display: display(&mesh, exposure),
             summary: &summary,
             settings: &settings_record,
-            notes: &scene.notes,
         };
         self.page.write(&account, &self.picture, &interrupt, &mut meter)?;
         summary.finished &= interrupt.is_whole();
         let outcome = Outcome {
             scene: self.scene.path.clone(),
-            photometric: self.scene.is_photometric(),
+            photometric: scene.photometric,
             summary,
             grid,
             settings: settings_record,
@@ -221,7 +222,7 @@ impl Solve {
         let scene = self.scene.load_lit(|line| meter.tell(line))?;
         memory.check_needs(&self.needs(&scene), "for the scene's faces")?;
         let camera = self.picture.choose_camera(&scene.cameras)?;
-        self.outputs().check(&scene.files, &scene.textures)?;
+        self.outputs().check(&scene.files, &mesh_pictures(&scene))?;
         Ok((scene, camera))
     }
 

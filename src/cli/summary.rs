@@ -154,11 +154,16 @@ impl Balance {
         ]
     }
 
+    /// A power in lumens.
+    pub(crate) fn lumens(power: [f64; 3]) -> f64 {
+        luminance(power.into()) * LUMENS_PER_WATT
+    }
+
     /// The same in lumens, for those who have given their lamps so.
     fn write_lumens(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "flux, lm")?;
         for (name, power) in self.rows() {
-            writeln!(f, "{name:<10} {:>11.1}", luminance(power.into()) * LUMENS_PER_WATT)?;
+            writeln!(f, "{name:<10} {:>11.1}", Self::lumens(power))?;
         }
         write!(f, "imbalance  {:.3} %", 100.0 * self.imbalance)
     }

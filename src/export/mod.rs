@@ -19,7 +19,7 @@ mod history;
 mod lightmap;
 mod look;
 mod obj;
-mod picture;
+pub(crate) mod picture;
 mod ply;
 
 use std::path::{Path, PathBuf};

@@ -2,7 +2,7 @@
 //!
 //! | component | with scripts | without |
 //! |---|---|---|
-//! | [`viewer()`] | a lit mesh in 3D: light, false colours, levels, reasons, errors, the mesh itself | its picture |
+//! | [`viewer()`] | a lit mesh in 3D: light on pictures or without them, false colours, levels, reasons, errors, the mesh itself | its picture |
 //! | [`wipe()`] | pictures on top of each other, a border to drag between two of them | side by side |
 //! | [`table()`] | rows sort by a click on a header; download as CSV | a table |
 //! | [`plot()`] | curves on axes | the same |
@@ -27,9 +27,11 @@ mod data;
 mod document;
 mod image;
 mod model;
+mod pictures;
 mod plot;
 mod quantise;
 mod table;
+mod textured;
 mod viewer;
 mod wipe;
 

@@ -30,6 +30,7 @@
     const corners = list("corners", step.wide ? Uint32Array : Uint16Array);
     const [levels, reasons] = [list("levels", Uint8Array), list("reasons", Uint8Array)];
     const errors = list("errors", Int16Array);
+    const uvs = list("uvs", Float32Array);
     const leaves = new Uint8Array(2 * corners.length);
     for (let i = 0; levels && i < corners.length; i += 1) {
       leaves[2 * i] = levels[Math.floor(i / 3)];
@@ -42,6 +43,9 @@
       positions: expanded(corners, list("positions", Uint16Array), 3),
       radiosity: expanded(corners, unpack(list("radiosity", Uint32Array), step.unit), 3),
       leaves,
+      // Only with pictures on surfaces, which radiosity is then to be multiplied by.
+      uvs: uvs && expanded(corners, uvs, 2),
+      runs: step.runs ?? [{ corners: corners.length, picture: null }],
       errors: expanded(corners, errors ?? new Int16Array(step.vertices), 1),
       errorStep: step.errorStep,
       reasons: [...new Set(reasons ?? [])].sort((a, b) => a - b),

@@ -5,7 +5,10 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use serde::Serialize;
 
+use super::pictures::Gallery;
+use super::textured::{RunRecord, Textured};
 use super::{base64, bulk, quantise};
+use crate::colour::Rgb;
 use crate::mesh::Mesh;
 use crate::reconstruct::TriMesh;
 use crate::render::leaves;
@@ -13,9 +16,8 @@ use crate::render::leaves;
 /// A lit mesh for a [`viewer`](super::viewer()), quantised.
 ///
 /// Positions are within 1/131 070 of the bounding box, radiosities within 1/512 of their largest
-/// channel: 10 bytes a vertex and 6 a triangle, 2 more with levels and reasons. Textures are left
-/// out: where there are some, the light is that of the texture's mean, which is what the vertices of
-/// a [`TriMesh`] hold.
+/// channel: 10 bytes a vertex and 6 a triangle, 2 more with levels and reasons; 8 more a vertex, and the
+/// pictures themselves, if there are pictures on surfaces.
 #[derive(Clone, Debug)]
 pub struct Model {
     low: DVec3,
@@ -23,6 +25,7 @@ pub struct Model {
     /// What radiosities are counted in, W/m².
     unit: f64,
     positions: Vec<[u16; 3]>,
+    /// By vertex; that of a white picture where there are pictures.
     radiosity: Vec<u32>,
     corners: Vec<[u32; 3]>,
     /// By triangle; empty if not known.
@@ -35,8 +38,8 @@ pub struct Model {
     pub(super) range: [f64; 2],
     /// Upper end of a good scale of errors.
     pub(super) error_limit: f64,
-    /// Whether pictures on surfaces are left out.
-    pub(super) lacks_pictures: bool,
+    /// The pictures on surfaces, if there are any.
+    textured: Option<Textured>,
 }
 
 impl Model {
@@ -45,7 +48,11 @@ impl Model {
         let low = mesh.positions.iter().copied().fold(DVec3::INFINITY, DVec3::min);
         let high = mesh.positions.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
         let (low, size) = if low.is_finite() { (low, high - low) } else { Default::default() };
-        let peak = mesh.radiosity.iter().map(|colour| colour.max_element()).fold(0.0, f64::max);
+        let textured = Textured::of_mesh(mesh);
+        // What pictures are multiplied by; it is the radiosity where there is none.
+        let on_white = textured.as_ref().map(|_| light_on_white(mesh));
+        let light = on_white.as_ref().unwrap_or(&mesh.radiosity);
+        let peak = light.iter().map(|colour| colour.max_element()).fold(0.0, f64::max);
         let unit = quantise::unit(peak);
         let position = |&point: &DVec3| quantise::position(point, low, size);
         Self {
@@ -53,14 +60,14 @@ impl Model {
             size,
             unit,
             positions: mesh.positions.iter().map(position).collect(),
-            radiosity: mesh.radiosity.iter().map(|&c| quantise::colour(c, unit)).collect(),
+            radiosity: light.iter().map(|&light| quantise::colour(light, unit)).collect(),
             corners: mesh.triangles.clone(),
             levels: Vec::new(),
             reasons: Vec::new(),
             errors: Vec::new(),
             range: bulk::radiosity_range(mesh),
             error_limit: 0.0,
-            lacks_pictures: mesh.parts.iter().any(|part| part.texture.is_some()),
+            textured,
         }
     }
 
@@ -106,8 +113,8 @@ impl Model {
         self.levels.iter().copied().max().unwrap_or(0)
     }
 
-    /// What the scripts get; the bytes go to `chunks`.
-    pub(super) fn packed(&self, chunks: &mut Chunks) -> Packed {
+    /// What the scripts get; the bytes go to `chunks`, the pictures to `gallery`.
+    pub(super) fn packed<'a>(&'a self, chunks: &mut Chunks, gallery: &mut Gallery<'a>) -> Packed {
         let wide = self.positions.len() > 1 + usize::from(u16::MAX);
         let corners = self.corners.iter().flatten().copied();
         let corners: Vec<u8> = match wide {
@@ -122,6 +129,12 @@ impl Model {
         let radiosity: Vec<u8> =
             self.radiosity.iter().copied().flat_map(u32::to_le_bytes).collect();
         lists.insert("radiosity", chunks.add(&radiosity));
+        let runs = self.textured.iter().flat_map(|textured| {
+            let uvs = textured.uvs.iter().flat_map(|uv| uv.to_array()).flat_map(f32::to_le_bytes);
+            lists.insert("uvs", chunks.add(&uvs.collect::<Vec<_>>()));
+            textured.packed(gallery)
+        });
+        let runs = runs.collect();
         if self.has_leaves() {
             lists.insert("levels", chunks.add(&self.levels));
             lists.insert("reasons", chunks.add(&self.reasons));
@@ -137,9 +150,14 @@ impl Model {
             error_step: quantise::ERROR_STEP,
             vertices: self.positions.len(),
             wide,
+            runs,
             lists,
         }
     }
+}
+
+fn light_on_white(mesh: &TriMesh) -> Vec<Rgb> {
+    (0..mesh.positions.len()).map(|vertex| mesh.light(vertex)).collect()
 }
 
 /// A model as `model.js` reads it.
@@ -153,6 +171,9 @@ pub(super) struct Packed {
     vertices: usize,
     /// Whether corners have 32 bits, not 16.
     wide: bool,
+    /// Triangles by their pictures; none if there are no pictures.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    runs: Vec<RunRecord>,
     /// Lists by name, as indices into the chunks; little-endian.
     lists: BTreeMap<&'static str, usize>,
 }
@@ -162,7 +183,7 @@ pub(super) struct Packed {
 pub(super) struct Chunks(pub(super) Vec<String>);
 
 impl Chunks {
-    fn add(&mut self, bytes: &[u8]) -> usize {
+    pub(super) fn add(&mut self, bytes: &[u8]) -> usize {
         let coded = base64::coded(bytes);
         let known = self.0.iter().position(|chunk| *chunk == coded);
         known.unwrap_or_else(|| {

@@ -19,7 +19,7 @@
   class Group {
     constructor() {
       this.viewers = [];
-      this.state = { view: null, mode: "light", mesh: false, stops: 0, top: 0, limit: 0, step: null };
+      this.state = { view: null, mode: "light", mesh: false, textures: true, stops: 0, top: 0, limit: 0, step: null };
       // Scales fit all viewers: equal colours mean equal values.
       this.scale = { range: [Infinity, 0], limit: 0, deepest: 0 };
     }
@@ -52,6 +52,7 @@
       this.home = camera.orbit(this.data.camera, this.box);
       this.modes = Object.keys(NAMES).filter((mode) => this.data.modes.includes(mode));
       if (!this.start()) return;
+      this.pictures = (this.data.pictures ?? []).map((picture) => this.read(picture));
       this.addControls();
       this.listen();
       group.join(this, this.data);
@@ -69,6 +70,14 @@
       this.figure.classList.add("live");
       this.say("");
       return true;
+    }
+
+    // A picture of a surface, whose image comes in its own time.
+    read({ mime, chunk, ...picture }) {
+      const image = new Image();
+      image.onload = () => this.redraw();
+      image.src = `data:${mime};base64,${this.data.chunks[chunk]}`;
+      return { ...picture, image };
     }
 
     say(text) {
@@ -98,13 +107,14 @@
       const { group } = this;
       this.mode = radiosity.choice("What to show", this.modes.map((mode) => [mode, NAMES[mode]]), (mode) => group.change({ mode }));
       this.mesh = radiosity.toggle("Mesh", (mesh) => group.change({ mesh }));
+      this.textures = radiosity.toggle("Textures", (textures) => group.change({ textures }));
       const reset = element("button", { type: "button", onclick: () => group.change({ view: this.home }) }, "Reset view");
       this.slider = slider((value) => group.change({ [SLIDERS[group.state.mode].key]: value }));
       this.steps = slider((step) => group.change({ step }));
       this.legend = element("div", { class: "legend" });
       const last = this.data.steps.length - 1;
       this.steps.set({ name: "Step", min: 0, max: last, step: 1 });
-      const controls = element("div", { class: "controls" }, this.mode.row, this.mesh.row, reset, last > 0 ? this.steps.row : null);
+      const controls = element("div", { class: "controls" }, this.mode.row, this.mesh.row, this.pictures.length > 0 ? this.textures.row : null, reset, last > 0 ? this.steps.row : null);
       const scales = element("div", { class: "controls" }, this.legend, this.slider.row);
       this.figure.querySelector(".stage").after(controls, scales);
     }
@@ -145,6 +155,7 @@
       const step = this.shownStep();
       this.mode.show(mode);
       this.mesh.input.checked = state.mesh;
+      this.textures.input.checked = state.textures;
       this.updateSlider(mode);
       this.steps.show(step, this.data.steps[step].label);
       this.updateLegend([mode, state.stops, step, ...this.ends(), this.group.scale.deepest].join());
@@ -216,10 +227,10 @@
       if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
       const mode = this.shownMode();
       this.provide(this.shownStep(), mode);
-      const { view, stops, mesh } = this.group.state;
+      const { view, stops, mesh, textures } = this.group.state;
       const clip = camera.matrix(view, width / height, this.box);
       const exposure = this.data.exposure * 2 ** stops;
-      drawing.draw({ clip, mode, exposure, ends: this.ends(), mesh, pixel });
+      drawing.draw({ clip, mode, exposure, ends: this.ends(), mesh, textures, pictures: this.pictures, pixel });
     }
 
     // Gives the graphics card what it does not have yet.

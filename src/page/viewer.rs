@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::data::inert;
 use super::image::image;
 use super::model::{Chunks, Model, Packed};
+use super::pictures::{Gallery, PictureRecord};
 use super::{base64, colour_maps};
 use crate::render::{colours, leaves};
 use crate::scene::Camera;
@@ -57,6 +58,9 @@ struct Record<'a> {
     viridis: String,
     diverging: String,
     steps: Vec<StepRecord<'a>>,
+    /// What lies on surfaces.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pictures: Vec<PictureRecord>,
     chunks: Vec<String>,
 }
 
@@ -78,13 +82,14 @@ struct StepRecord<'a> {
 
 /// A mesh to turn, shift and zoom, by mouse, touch or keys: as the eye would see it, in false
 /// colours, by level and reason of its elements and by error, as far as its models know, with the
-/// triangles drawn over it at will.
+/// triangles drawn over it at will. The pictures on its surfaces can be taken away, to see the light alone.
 ///
 /// Fronts only are drawn, so that one looks into a room from outside. Without steps there is nothing.
 pub fn viewer(viewer: &Viewer<'_>) -> Markup {
     if viewer.steps.is_empty() {
         return Markup::default();
     }
+    let (record, limit) = record(viewer);
     html! {
         figure.viewer data-group=(viewer.group) {
             div.stage {
@@ -95,26 +100,31 @@ pub fn viewer(viewer: &Viewer<'_>) -> Markup {
             }
             figcaption {
                 @if !viewer.caption.is_empty() { (viewer.caption) }
-                @if viewer.steps.iter().any(|step| step.model.lacks_pictures) {
-                    " Pictures on surfaces are left out here: the light is that of their mean colour."
+                @if let Some(side) = limit {
+                    " Pictures on surfaces are kept small: " (side) " texels a side at most."
                 }
                 span.hint {
                     "Drag to turn, with shift or the right button to shift; wheel or pinch to zoom; \
                      arrow keys, + and \u{2212} do the same, 0 goes back."
                 }
             }
-            script type="application/json" { (inert(&record(viewer))) }
+            script type="application/json" { (inert(&record)) }
         }
     }
 }
 
-fn record<'a>(viewer: &Viewer<'a>) -> Record<'a> {
+/// What the scripts get, and how many texels a side has at most where that is less than there were.
+fn record<'a>(viewer: &Viewer<'a>) -> (Record<'a>, Option<u32>) {
     let models = || viewer.steps.iter().map(|step| &step.model);
-    let mut chunks = Chunks::default();
-    let mut step =
-        |step: &'a Step| StepRecord { label: &step.label, model: step.model.packed(&mut chunks) };
+    let (mut chunks, mut gallery) = (Chunks::default(), Gallery::default());
+    let step = |step: &'a Step| StepRecord {
+        label: &step.label,
+        model: step.model.packed(&mut chunks, &mut gallery),
+    };
+    let steps = viewer.steps.iter().map(step).collect();
+    let (pictures, limit) = gallery.packed(&mut chunks);
     let Camera { eye, target, up, vertical_fov, .. } = viewer.camera;
-    Record {
+    let record = Record {
         camera: CameraRecord {
             eye: eye.to_array(),
             target: target.to_array(),
@@ -133,9 +143,11 @@ fn record<'a>(viewer: &Viewer<'a>) -> Record<'a> {
         reasons: colours::CATEGORIES.into_iter().zip(leaves::REASONS).collect(),
         viridis: base64::coded(&colour_maps::viridis()),
         diverging: base64::coded(&colour_maps::diverging()),
-        steps: viewer.steps.iter().map(&mut step).collect(),
+        steps,
+        pictures,
         chunks: chunks.0,
-    }
+    };
+    (record, limit)
 }
 
 /// Names, as `viewer.js` has them, of what can be shown.

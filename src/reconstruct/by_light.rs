@@ -1,6 +1,6 @@
 //! A mesh that keeps the light of each group of lights apart, so that they can be dimmed.
 
-use super::{TriMesh, reconstruct};
+use super::{Lamps, TriMesh, reconstruct_for};
 use crate::colour::Rgb;
 use crate::solver::Solution;
 use crate::surface::{LightGroup, Surfaces};
@@ -21,9 +21,9 @@ pub fn reconstruct_by_light(
     solution: &Solution,
     parts: impl IntoIterator<Item = (LightGroup, Surfaces, Solution)>,
 ) -> TriMesh {
-    let mut mesh = reconstruct(surfaces, solution);
+    let mut mesh = reconstruct_for(Lamps::Dimmable, surfaces, solution);
     let share = |(group, surfaces, part): (LightGroup, Surfaces, Solution)| {
-        let radiosity = reconstruct(&surfaces, &part).radiosity;
+        let radiosity = reconstruct_for(Lamps::Dimmable, &surfaces, &part).radiosity;
         LightShare { group, radiosity }
     };
     mesh.lights = parts.into_iter().map(share).collect();

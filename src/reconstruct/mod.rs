@@ -8,6 +8,7 @@ mod angles;
 mod by_light;
 mod dimming;
 mod fit;
+mod glow;
 mod normal;
 mod sheet;
 mod smooth;
@@ -24,12 +25,14 @@ use crate::surface::{Surfaces, Weld};
 pub use angles::Angles;
 pub use by_light::{LightShare, reconstruct_by_light};
 pub use dimming::Dimming;
+pub use glow::mesh_pictures;
 pub use trimesh::{Irradiance, Part, TriMesh};
 
 pub(crate) use normal::normal_at;
 pub(crate) use stitch::Places;
 pub(crate) use triangulate::triangulate;
 
+use glow::Glow;
 use sheet::Sheet;
 
 /// What is nearer than so many tolerances is one place: no two vertices of a mesh are, but those of one place.
@@ -40,6 +43,17 @@ pub(crate) const ON_EDGE: f64 = 30.0;
 
 /// The triangle mesh of a solution.
 pub fn reconstruct(surfaces: &Surfaces, solution: &Solution) -> TriMesh {
+    reconstruct_for(Lamps::Fixed, surfaces, solution)
+}
+
+/// Whether the lamps of a mesh may be dimmed afterwards: their light must not be part of a picture then.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Lamps {
+    Fixed,
+    Dimmable,
+}
+
+fn reconstruct_for(lamps: Lamps, surfaces: &Surfaces, solution: &Solution) -> TriMesh {
     let mesh = &solution.mesh;
     let leaves = leaves_by_surface(surfaces, mesh);
     let mut weld = Weld::new(ONE_PLACE * surfaces.tolerance);
@@ -63,7 +77,7 @@ pub fn reconstruct(surfaces: &Surfaces, solution: &Solution) -> TriMesh {
         })
         .collect();
     smooth::average_across_smooth_edges(&mut sheets);
-    assemble(surfaces, &places, &sheets)
+    assemble(surfaces, &places, &sheets, lamps)
 }
 
 fn leaves_by_surface(surfaces: &Surfaces, mesh: &Mesh) -> Vec<Vec<ElementId>> {
@@ -75,7 +89,7 @@ fn leaves_by_surface(surfaces: &Surfaces, mesh: &Mesh) -> Vec<Vec<ElementId>> {
 }
 
 /// Joins the sheets, material by material.
-fn assemble(surfaces: &Surfaces, places: &Places, sheets: &[Sheet]) -> TriMesh {
+fn assemble(surfaces: &Surfaces, places: &Places, sheets: &[Sheet], lamps: Lamps) -> TriMesh {
     let mut hanging: Vec<u32> = sheets.iter().flat_map(|sheet| &sheet.hanging).copied().collect();
     hanging.sort_unstable();
     hanging.dedup();
@@ -89,17 +103,23 @@ fn assemble(surfaces: &Surfaces, places: &Places, sheets: &[Sheet]) -> TriMesh {
     };
     for (number, material) in surfaces.materials.iter().enumerate() {
         let first = mesh.parts.len();
+        let fixed = (lamps == Lamps::Fixed).then_some(number as u32);
+        let glow = fixed.and_then(|number| Glow::of_material(surfaces, number, sheets));
+        let texture = match &glow {
+            Some(glow) => Some(glow.added_to(&mut mesh.textures)),
+            None => material.texture,
+        };
         for (surface, sheet) in surfaces.list.iter().zip(sheets) {
             if surface.material as usize == number {
                 let start = mesh.triangles.len();
-                append(&mut mesh, places, sheet);
+                append(&mut mesh, places, sheet, glow.as_ref());
                 let (object, end) = (Some(surface.object), mesh.triangles.len());
                 match mesh.parts[first..].last_mut().filter(|part| part.object == object) {
                     Some(part) => part.triangles.end = end,
                     None => mesh.parts.push(Part {
                         name: material.name.clone(),
                         triangles: start..end,
-                        texture: material.texture,
+                        texture,
                         cutoff: material.cutoff,
                         object,
                     }),
@@ -112,14 +132,14 @@ fn assemble(surfaces: &Surfaces, places: &Places, sheets: &[Sheet]) -> TriMesh {
 }
 
 /// Adds the corners and triangles of a sheet.
-fn append(mesh: &mut TriMesh, places: &Places, sheet: &Sheet) {
+fn append(mesh: &mut TriMesh, places: &Places, sheet: &Sheet, glow: Option<&Glow>) {
     let base = mesh.positions.len() as u32;
     for corner in &sheet.corners {
         mesh.positions.push(places.at(corner.place));
         mesh.normals.push(corner.normal.as_vec3());
         mesh.uvs.push(corner.uv.as_vec2());
         mesh.radiosity.push(corner.radiosity);
-        mesh.texture_mean.push(corner.texture_mean);
+        mesh.texture_mean.push(glow.map_or(corner.texture_mean, |glow| glow.mean(corner)));
         mesh.irradiance.push(corner.irradiance);
     }
     mesh.triangles.extend(sheet.triangles.iter().map(|t| t.map(|corner| base + corner)));

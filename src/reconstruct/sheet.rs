@@ -37,6 +37,8 @@ pub(super) struct Corner {
     pub(super) uv: DVec2,
     pub(super) irradiance: Irradiance,
     pub(super) radiosity: Rgb,
+    /// The part of the radiosity that the surface emits.
+    pub(super) emitted: Rgb,
     pub(super) texture_mean: Rgb,
     /// Diffuse reflectance without the texture's part.
     pub(super) reflectance: Rgb,
@@ -177,6 +179,7 @@ impl Builder<'_> {
                 uv: self.surface.uv.map_or(DVec2::ZERO, |uv| uv.transform_point2(position)),
                 irradiance,
                 radiosity: Rgb::ZERO,
+                emitted: Rgb::ZERO,
                 texture_mean: Rgb::ONE,
                 reflectance: self.surface.reflectance_at(position),
             };
@@ -230,7 +233,7 @@ impl Builder<'_> {
             let emitted = exitance * look.exitance_texture / look.area;
             let Irradiance { direct, indirect, .. } = corner.irradiance;
             let radiosity = emitted + corner.reflectance * texture_mean * (direct + indirect);
-            Corner { radiosity, texture_mean, ..corner }
+            Corner { radiosity, emitted, texture_mean, ..corner }
         };
         self.corners.into_iter().zip(self.looks).map(with_light).collect()
     }

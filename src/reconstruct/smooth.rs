@@ -21,22 +21,24 @@ pub(super) fn average_across_smooth_edges(sheets: &mut [Sheet]) {
     for corners in meeting.values().filter(|corners| corners.len() > 1) {
         let means: Vec<_> =
             corners.iter().map(|&corner| mean_of_alike(sheets, corners, corner)).collect();
-        for (&(sheet, index), [radiosity, texture_mean, direct, indirect]) in
+        for (&(sheet, index), [radiosity, emitted, texture_mean, direct, indirect]) in
             corners.iter().zip(means)
         {
             let corner = &mut sheets[sheet].corners[index];
-            (corner.radiosity, corner.texture_mean) = (radiosity, texture_mean);
+            (corner.radiosity, corner.emitted, corner.texture_mean) =
+                (radiosity, emitted, texture_mean);
             corner.irradiance = Irradiance { direct, indirect, ..corner.irradiance };
         }
     }
 }
 
-/// Means of radiosity, of the texture's means, which are to stay in proportion, and of direct and indirect irradiance.
+/// Means of radiosity, of what of it is emitted, of the texture's means, all to stay in proportion, and of direct and
+/// indirect irradiance.
 fn mean_of_alike(
     sheets: &[Sheet],
     corners: &[(usize, usize)],
     (sheet, index): (usize, usize),
-) -> [Rgb; 4] {
+) -> [Rgb; 5] {
     let (material, own) = (sheets[sheet].material, &sheets[sheet].corners[index]);
     let alike = corners
         .iter()
@@ -44,10 +46,10 @@ fn mean_of_alike(
         .map(|&(sheet, index)| &sheets[sheet].corners[index])
         .filter(|corner| corner.normal.distance(own.normal) <= SAME)
         .filter(|corner| corner.reflectance.distance(own.reflectance) <= SAME);
-    let mut sums = [Rgb::ZERO; 4];
+    let mut sums = [Rgb::ZERO; 5];
     let mut count = 0.0;
-    for Corner { radiosity, texture_mean, irradiance, .. } in alike {
-        let light = [*radiosity, *texture_mean, irradiance.direct, irradiance.indirect];
+    for Corner { radiosity, emitted, texture_mean, irradiance, .. } in alike {
+        let light = [*radiosity, *emitted, *texture_mean, irradiance.direct, irradiance.indirect];
         sums.iter_mut().zip(light).for_each(|(sum, light)| *sum += light);
         count += 1.0;
     }

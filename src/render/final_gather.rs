@@ -47,9 +47,14 @@ impl<'a> FinalGather<'a> {
         self.light.at(patch, site).irradiance
     }
 
-    /// Diffuse reflectance at a place on a leaf, without the texture's part.
+    /// Diffuse reflectance at a place on a leaf, without the texture's part; none where emission and reflected light
+    /// are in one picture, which cannot tell a change of the one from a change of the other.
     pub(super) fn reflectance(&self, leaf: ElementId, place: DVec3) -> Rgb {
         let surface = &self.surfaces.list[self.mesh.surface_of(leaf)];
+        let material = &self.surfaces.materials[surface.material as usize];
+        if surface.is_emitter() && material.texture.or(material.emission_texture).is_some() {
+            return Rgb::ZERO;
+        }
         surface.reflectance_at(surface.plane.flatten(place))
     }
 }

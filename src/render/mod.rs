@@ -18,7 +18,6 @@ mod rays;
 mod save;
 mod scale;
 mod shade;
-mod texture;
 mod tracer;
 mod view;
 

@@ -9,7 +9,6 @@ use super::colours::Swatch;
 use super::final_gather::FinalGather;
 use super::leaves;
 use super::picture::Subject;
-use super::texture;
 use super::view::View;
 use crate::colour::Rgb;
 use crate::reconstruct::{Irradiance, Part, TriMesh};
@@ -80,7 +79,7 @@ impl<'a> Shade<'a> {
         };
         let texture = texture_on(self.mesh, hit.triangle);
         texture.is_none_or(|number| {
-            texture::opacity(&self.mesh.textures[number], uv_at(self.mesh, hit)) >= cutoff
+            self.mesh.textures[number].opacity(uv_at(self.mesh, hit)) >= cutoff
         })
     }
 
@@ -181,7 +180,7 @@ fn texture_on(mesh: &TriMesh, triangle: usize) -> Option<usize> {
 
 /// Colour of a texture at `hit`.
 fn texture_at(mesh: &TriMesh, number: usize, hit: &Hit) -> Rgb {
-    texture::sample(&mesh.textures[number], uv_at(mesh, hit))
+    mesh.textures[number].mixed(uv_at(mesh, hit))
 }
 
 /// Texture coordinates at `hit`.

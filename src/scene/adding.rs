@@ -20,6 +20,10 @@ pub enum Amount {
 }
 
 impl Amount {
+    pub(super) fn is_flux(self) -> bool {
+        matches!(self, Self::Flux(_))
+    }
+
     /// Radiance, W/(m² sr), of Lambertian surfaces of this area, m²: Φ = π L A.
     ///
     /// # Errors
@@ -96,7 +100,8 @@ impl Scene {
         amount: Amount,
     ) -> std::result::Result<(), String> {
         let area = materials.iter().map(|&material| self.area_of(material)).sum::<f64>();
-        if matches!(amount, Amount::Flux(_)) && area <= 0.0 {
+        self.photometric |= amount.is_flux();
+        if amount.is_flux() && area <= 0.0 {
             let name = &self.materials[materials[0]].name;
             return Err(format!("material \"{name}\" is on no face that could emit lumens"));
         }
@@ -130,6 +135,7 @@ impl Scene {
         let normal = lamp.direction.try_normalize();
         let normal = normal.ok_or_else(|| wrong("the direction has no length"))?;
         let emission = lamp.amount.radiance(width * depth).map_err(|message| wrong(&message))?;
+        self.photometric |= lamp.amount.is_flux();
         let number = 1 + self.objects.iter().filter(|name| name.starts_with(AREA_LIGHT)).count();
         let name = format!("{AREA_LIGHT} {number}");
         let first = self.positions.len() as u32;

@@ -119,4 +119,33 @@ impl Texture {
         let texel = self.texels.get(row * self.width as usize + column);
         texel.map_or(Rgb::ZERO, |texel| Vec3::from(texel).as_dvec3())
     }
+    /// The same in half as many columns and rows, each texel the mean of four; no longer as a file had it.
+    pub(crate) fn halved(&self) -> Self {
+        let [width, height] = [self.width, self.height].map(|side| side.div_ceil(2));
+        let index = |column: u32, row: u32| {
+            (row.min(self.height - 1) * self.width + column.min(self.width - 1)) as usize
+        };
+        let four = |place: u32| {
+            let (column, row) = (2 * (place % width), 2 * (place / width));
+            [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]| index(column + x, row + y))
+        };
+        let colour = |place: u32| -> [f32; 3] {
+            let texels = four(place).map(|at| Vec3::from(self.texels.get(at).unwrap_or_default()));
+            (texels.iter().sum::<Vec3>() / 4.0).into()
+        };
+        let opacity = |place: u32| {
+            let sum: u32 = four(place).iter().map(|&at| u32::from(self.alpha[at])).sum();
+            ((sum + 2) / 4) as u8
+        };
+        let has_holes = !self.alpha.is_empty();
+        let alpha = if has_holes { (0..width * height).map(opacity).collect() } else { Vec::new() };
+        Self {
+            width,
+            height,
+            texels: (0..width * height).map(colour).collect(),
+            alpha,
+            encoded: [].into(),
+            ..self.clone()
+        }
+    }
 }

@@ -16,6 +16,7 @@ mod junctions;
 mod light;
 mod load;
 mod material;
+mod mixed;
 mod named;
 mod names;
 mod notes;
@@ -52,7 +53,7 @@ pub use photometry::Photometry;
 pub(crate) use polygon::area_vector;
 pub use sides::{Sides, settle_sides};
 pub use texels::Texels;
-pub(crate) use texture::decode;
+pub(crate) use texture::{decode, mean};
 pub use up::Up;
 
 /// A scene of polygons, in metres.
@@ -75,6 +76,8 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// Lights without a surface.
     pub lights: Vec<NamedLight>,
+    /// True if light was added by lumens, candela or lux: then people want to be told of light in lumens, too.
+    pub photometric: bool,
     /// Views the file offers, in its order.
     pub cameras: Vec<Camera>,
     /// Repairs and warnings, a line each, for the user to read.

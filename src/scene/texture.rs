@@ -67,7 +67,7 @@ pub(crate) fn attach_pictures(
     mapping
 }
 
-/// Mean colour of a texture.
+/// Mean colour of a texture, linear RGB.
 pub(crate) fn mean(texture: &Texture) -> Rgb {
     let sum: Rgb = texture.texels.iter().map(|texel| glam::Vec3::from(texel).as_dvec3()).sum();
     sum / texture.texels.len().max(1) as f64

@@ -251,3 +251,23 @@ fn a_dome_round_a_scene_is_told_where_sun_or_sky_are_asked_for() {
     assert!(!told(&["open.obj", "--sky", "uniform"]));
     assert!(told(&["open.obj", "--sun", "180,60"]) != told(&["open.obj", "--sun", "0,60"]));
 }
+
+#[test]
+fn lamps_in_lumens_are_told_of_in_lumens_however_they_are_given() {
+    let place = room();
+    place.write("lumens.toml", "[panel]\nemission = \"500lm\"\n");
+    place.write("radiance.toml", "[panel]\nemission = 5\n");
+    let told = |lamp: [&str; 2]| {
+        let page = ["solve", "room.obj", "--html", "a.html", "--size", "40x30"];
+        let stdout = place.run(&[&page, &COARSE[..], &lamp].concat()).done().stdout;
+        let page = std::fs::read_to_string(place.path("a.html")).unwrap();
+        let is_in_lumens = stdout.contains("\nflux, lm\nemitted          500.0\n");
+        assert_ne!(is_in_lumens, stdout.contains("\npower, W"), "{stdout}");
+        assert_eq!(is_in_lumens, page.contains(">Flux<") && page.contains(">500.0<"), "{lamp:?}");
+        is_in_lumens
+    };
+    for lamp in [["--emit", "panel=500lm"], ["--materials", "lumens.toml"]] {
+        assert!(told(lamp), "{lamp:?}");
+    }
+    assert!(!told(["--materials", "radiance.toml"]));
+}

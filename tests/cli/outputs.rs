@@ -55,8 +55,11 @@ fn materials_of_others_beside_an_obj_are_left_alone() {
     for _ in 0..2 {
         place.run(&solve(&["-o", "own.obj"])).done();
     }
-    assert!(place.path("own-0.png").exists());
+    // The picture lies on the lamp, and shines with it.
+    assert!(place.path("own-1.png").exists());
     place.run(&solve(&["-o", "pre.obj", "--force"])).done();
+    place.write("new-1.png", "a picture of others");
+    place.run(&solve(&["-o", "new.obj"])).refused(1, &["new-1.png", "there already", "--force"]);
 }
 
 #[test]

@@ -64,6 +64,27 @@ pub(crate) static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
     vec![everything(), everything(), scene("cornell-box.obj"), scene("blocker.obj")]
 });
 
+/// Compressed glTF.
+pub(crate) static PACKED: LazyLock<Vec<Asset>> = LazyLock::new(|| {
+    let asset = |name: &str| {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/load/packed");
+        let bytes = read(&folder.join(name));
+        let number = |at: usize| u32::from_le_bytes([0, 1, 2, 3].map(|k| bytes[at + k])) as usize;
+        let end = 20 + number(12);
+        let json = serde_json::from_slice(&bytes[20..end]).expect("a GLB begins with JSON");
+        Asset { json, bytes: bytes[end + 8..].to_vec() }
+    };
+    [
+        "draco.glb",
+        "draco-valence.glb",
+        "draco-sequential.glb",
+        "meshopt.glb",
+        "meshopt-filtered.glb",
+    ]
+    .map(asset)
+    .into()
+});
+
 fn everything() -> Asset {
     let mut asset = Asset::triangle();
     let uvs = asset.add(&floats(&[0., 0., 1., 0., 0., 1.]), FLOAT, "VEC2", 3);

@@ -55,6 +55,7 @@ tests! {
     bent_mtl_files: MTL;
     bent_gltf_files: GLTF;
     bent_glb_files: GLB;
+    bent_compressed_files: PACKED;
     bent_stl_files: STL;
     bent_ply_files: PLY;
     bent_configurations: TOML;

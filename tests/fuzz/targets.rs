@@ -24,6 +24,7 @@ pub(crate) const OBJ: Target = Target { name: "obj", quick: 600, files: obj, che
 pub(crate) const MTL: Target = Target { name: "mtl", quick: 300, files: mtl, check: load };
 pub(crate) const GLTF: Target = Target { name: "gltf", quick: 600, files: gltf, check: load };
 pub(crate) const GLB: Target = Target { name: "glb", quick: 400, files: glb, check: load };
+pub(crate) const PACKED: Target = Target { name: "packed", quick: 400, files: packed, check: load };
 pub(crate) const STL: Target = Target { name: "stl", quick: 400, files: stl, check: load };
 pub(crate) const PLY: Target = Target { name: "ply", quick: 600, files: ply, check: load };
 pub(crate) const TOML: Target = Target { name: "toml", quick: 60, files: toml, check: configure };
@@ -55,9 +56,9 @@ fn mtl(rng: &mut Rng) -> Files {
     files
 }
 
-/// A glTF file bent in its tree and in its numbers.
-fn asset(rng: &mut Rng) -> Asset {
-    let seed = &corpus::ASSETS[rng.usize(..corpus::ASSETS.len())];
+/// A glTF file of `seeds` bent in its tree and in its numbers.
+fn asset(rng: &mut Rng, seeds: &[Asset]) -> Asset {
+    let seed = &seeds[rng.usize(..seeds.len())];
     let mut asset = Asset { json: seed.json.clone(), bytes: seed.bytes.clone() };
     for _ in 0..often(rng) {
         if rng.u8(..4) > 0 {
@@ -81,7 +82,7 @@ fn number(rng: &mut Rng, bytes: &mut [u8]) {
 }
 
 fn gltf(rng: &mut Rng) -> Files {
-    let mut text = asset(rng).text().into_bytes();
+    let mut text = asset(rng, &corpus::ASSETS).text().into_bytes();
     if rng.u8(..6) == 0 {
         bytes(rng, &mut text);
     }
@@ -89,11 +90,20 @@ fn gltf(rng: &mut Rng) -> Files {
 }
 
 fn glb(rng: &mut Rng) -> Files {
-    let mut glb = asset(rng).glb();
+    let mut glb = asset(rng, &corpus::ASSETS).glb();
     for _ in 0..rng.usize(..3) {
         bytes(rng, &mut glb);
     }
     with_picture(vec![("a.glb".to_owned(), glb)])
+}
+
+/// Compressed, and bent there as well.
+fn packed(rng: &mut Rng) -> Files {
+    let mut asset = asset(rng, &corpus::PACKED);
+    for _ in 0..rng.usize(..4) {
+        bytes(rng, &mut asset.bytes);
+    }
+    vec![("a.glb".to_owned(), asset.glb())]
 }
 
 /// Text is bent by its words, what is binary by its bytes.

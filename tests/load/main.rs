@@ -11,6 +11,7 @@ mod ies;
 mod mutated;
 mod names;
 mod obj;
+mod packed;
 mod ply;
 mod pose;
 mod refused;

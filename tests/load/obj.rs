@@ -247,3 +247,44 @@ fn given_normals_win_over_smoothing_groups() {
     let scene = scene(&format!("{ROOF}{flat}s 1\nf 3//1 2//1 1//1 4//1\nf 2//2 3//2 6//2 5//2\n"));
     assert!(scene.faces.iter().all(|face| face.normals.is_empty()));
 }
+
+/// A square whose vertices have one colour on the left and one on the right.
+fn tinted(left: &str, right: &str) -> String {
+    let colours = [left, right, right, left];
+    let corners = SQUARE.lines().zip(colours).map(|(line, colour)| format!("{line} {colour}\n"));
+    corners.collect()
+}
+
+#[test]
+fn colours_of_vertices_are_factors_of_reflectance_in_srgb() {
+    let obj = format!("mtllib m.mtl\n{}usemtl a\nf 1 2 3 4\n", tinted("0.5 0 2", "1 1 1"));
+    let load = |mtl: &str| {
+        let folder =
+            Folder::new().with("s.obj", &obj).with("m.mtl", mtl).with("red.png", red_png());
+        folder.load("s.obj").expect("a readable scene")
+    };
+    let plain = load("newmtl a\nKd 0.8 0.6 0.4\n");
+    assert_eq!(plain.materials[0].reflectance, DVec3::new(0.8, 0.6, 0.4));
+    let [left, right, ..] = plain.faces[0].tints[..] else { panic!("no tints") };
+    assert!(left.abs_diff_eq(Vec3::new(0.214_041, 0.0, 1.0), 1e-6) && right == Vec3::ONE);
+    assert_eq!(plain.notes, ["1 face tinted by the colours of its vertices, taken as sRGB"]);
+    let pictured = load("newmtl a\nmap_Kd red.png\n");
+    assert!(pictured.faces[0].tints.is_empty());
+    assert!(pictured.notes.concat().contains("colours of its vertices are ignored"));
+}
+
+#[test]
+fn colours_are_all_that_is_known_of_what_has_no_material_and_white_says_nothing() {
+    let coloured = scene(&format!("{}f 1 2 3 4\n", tinted("0.5 0.5 0.5", "0.5 0.5 0.5")));
+    assert_eq!(coloured.materials[0].reflectance, DVec3::splat(0.99));
+    assert!((coloured.faces[0].tints[3].x - 0.214_041).abs() < 1e-6);
+    let white = scene(&format!("{}f 1 2 3 4\n", tinted("1 1 1", "1.0 1 1")));
+    let plain = scene(&format!("{SQUARE}f 1 2 3 4\n"));
+    assert_eq!(white.materials[0].reflectance, plain.materials[0].reflectance);
+    assert!(white.faces[0].tints.is_empty() && white.notes == plain.notes, "{:?}", white.notes);
+    // What is far behind the first vertices is told apart from them.
+    let late = format!("{SQUARE}v 0 0 1\nv 1 0 1 0 0 0\nv 1 1 1\nf 1 2 3 4\nf 5 6 7\n");
+    let late = scene(&late);
+    assert!(late.faces[0].tints.is_empty());
+    assert_eq!(late.faces[1].tints[..], [Vec3::ONE, Vec3::ZERO, Vec3::ONE]);
+}

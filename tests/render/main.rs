@@ -2,6 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod emission;
 mod final_gather;
 mod first_look;
 mod views;

@@ -80,12 +80,9 @@ impl LightOptions {
         !self.area_light.is_empty()
     }
 
-    /// Whether lamps are given in lumens, candela or lux: then light is told in them, too.
-    pub(super) fn is_photometric(&self) -> bool {
-        let in_lumens = |amount: &Amount| matches!(amount, Amount::Flux(_));
-        self.emit.iter().any(|(_, amount)| in_lumens(amount))
-            || self.area_light.iter().any(|lamp| in_lumens(&lamp.amount))
-            || self.point_light.iter().any(|(_, is_photometric)| *is_photometric)
+    /// Whether lights without a surface are given in lumens, candela or lux; of surfaces, the scene knows.
+    fn is_photometric(&self) -> bool {
+        self.point_light.iter().any(|(_, is_photometric)| *is_photometric)
             || !self.ies.is_empty()
             || self.sun.is_some()
             || self.sky.is_some()
@@ -112,6 +109,7 @@ impl LightOptions {
         let points = self.point_light.iter().map(|(light, _)| light);
         let lights = points.chain(&self.sun).chain(&self.sky);
         scene.lights.extend(lights.cloned().map(NamedLight::from));
+        scene.photometric |= self.is_photometric();
         Ok(())
     }
 }

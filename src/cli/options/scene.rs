@@ -83,11 +83,6 @@ impl SceneOptions {
         std::fs::metadata(&self.path).map_or(0, |about| about.len())
     }
 
-    /// Whether lamps are given in lumens, candela or lux.
-    pub(crate) fn is_photometric(&self) -> bool {
-        self.lights.is_photometric()
-    }
-
     /// The files that are named to be read; what these name is known once they are.
     pub(crate) fn files(&self) -> Vec<PathBuf> {
         [self.path.clone()].into_iter().chain(self.lights.files()).collect()

@@ -3,17 +3,22 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use ::gltf::json::buffer::{Buffer, Stride, View};
 use ::gltf::json::root::Get;
-use ::gltf::json::{Index, Root, buffer};
+use ::gltf::json::validation::USize64;
+use ::gltf::json::{Index, Root};
 use ::gltf::{Glb, json};
 use data_url::DataUrl;
 use percent_encoding::percent_decode_str;
 
+use super::packed::{DRACO, MESHOPT};
 use crate::error::{Error, Result};
 use crate::scene::named::find;
 
 /// Required extensions that are read, or whose absence leaves diffuse light as it is.
-const READABLE: [&str; 6] = [
+const READABLE: [&str; 8] = [
+    DRACO,
+    MESHOPT,
     "KHR_materials_pbrSpecularGlossiness",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
@@ -44,6 +49,7 @@ impl File {
             let data = file.buffer(index, &mut blob, notes)?;
             file.buffers.push(data);
         }
+        file.unpack()?;
         Ok(file)
     }
 
@@ -62,14 +68,9 @@ impl File {
     }
 
     /// The bytes of a buffer view and its stride, if it has one.
-    pub(super) fn view(&self, index: Index<buffer::View>) -> Result<(&[u8], Option<usize>)> {
+    pub(super) fn view(&self, index: Index<View>) -> Result<(&[u8], Option<usize>)> {
         let view = self.get(index, "buffer view")?;
-        let data = self.buffers.get(view.buffer.value()).and_then(Option::as_deref);
-        let start = usize::try_from(view.byte_offset.unwrap_or_default().0).ok();
-        let length = usize::try_from(view.byte_length.0).ok();
-        let bytes = data
-            .zip(start.zip(length))
-            .and_then(|(data, (start, length))| data.get(start..start.checked_add(length)?));
+        let bytes = self.bytes(view.buffer, view.byte_offset.unwrap_or_default(), view.byte_length);
         let packed = view.extensions.as_ref().and_then(|all| all.others.keys().next());
         let packed = packed
             .map_or_else(String::new, |name| format!(" (compressed by {name}, which is not read)"));
@@ -79,6 +80,34 @@ impl File {
         Ok((bytes.ok_or_else(outside)?, view.byte_stride.map(|stride| stride.0)))
     }
 
+    /// Some bytes of a buffer, if they are there.
+    pub(super) fn bytes(
+        &self,
+        buffer: Index<Buffer>,
+        start: USize64,
+        length: USize64,
+    ) -> Option<&[u8]> {
+        let data = self.buffers.get(buffer.value())?.as_deref()?;
+        let [start, length] = [start, length].map(|number| usize::try_from(number.0).ok());
+        data.get(start?..start?.checked_add(length?)?)
+    }
+
+    /// A view of bytes that are not in the file, which are kept as a buffer.
+    pub(super) fn add_bytes(&mut self, bytes: Vec<u8>, byte_stride: Option<Stride>) -> View {
+        let (buffer, byte_length) = (Index::new(self.buffers.len() as u32), bytes.len().into());
+        self.buffers.push(Some(bytes));
+        View {
+            buffer,
+            byte_length,
+            byte_offset: None,
+            byte_stride,
+            name: None,
+            target: None,
+            extensions: None,
+            extras: None,
+        }
+    }
+
     /// The bytes behind a URI: `data:`, or a file beside this one; which one was taken instead of another is noted.
     pub(super) fn resource(&self, uri: &str, notes: &mut Vec<String>) -> Result<Vec<u8>> {
         if uri.starts_with("data:") {
@@ -86,6 +115,12 @@ impl File {
             let decoded = url.decode_to_vec();
             return Ok(decoded.map_err(|error| self.fail(format!("data: URI: {error}")))?.0);
         }
+        let path = self.beside(uri, notes)?;
+        fs::read(&path).map_err(Error::io(&path))
+    }
+
+    /// The file that a URI is about, beside this one; if there is none, where it should be.
+    fn beside(&self, uri: &str, notes: &mut Vec<String>) -> Result<PathBuf> {
         if uri.contains("://") && !uri.to_ascii_lowercase().starts_with("file:") {
             return Err(
                 self.fail(format!("\"{uri}\": only data: URIs and relative paths are read"))
@@ -97,24 +132,15 @@ impl File {
         // Exporters also write names as they are, with escapes in them.
         let as_written = Some(folder.join(uri)).filter(|path| path.is_file());
         let path = as_written.or_else(|| find(folder, &name, notes));
-        let path = path.unwrap_or_else(|| folder.join(name.as_ref()));
-        fs::read(&path).map_err(Error::io(&path))
+        Ok(path.unwrap_or_else(|| folder.join(name.as_ref())))
     }
 
-    /// Where the file behind a relative URI may be.
-    fn beside(&self, uri: &str) -> Vec<PathBuf> {
-        let folder = self.path.parent().unwrap_or(Path::new(""));
-        let name = percent_decode_str(uri).decode_utf8().unwrap_or_default();
-        let found = find(folder, &name, &mut Vec::new());
-        [folder.join(uri), folder.join(name.as_ref())].into_iter().chain(found).collect()
-    }
-
-    /// The file itself, and all places of those that it refers to.
+    /// The file itself, and all that it refers to; those that cannot be read are told of when they are to be.
     pub(super) fn files(&self) -> Vec<PathBuf> {
         let buffers = self.root.buffers.iter().filter_map(|buffer| buffer.uri.as_deref());
         let images = self.root.images.iter().filter_map(|image| image.uri.as_deref());
         let relative = buffers.chain(images).filter(|uri| !uri.starts_with("data:"));
-        let beside = relative.flat_map(|uri| self.beside(uri));
+        let beside = relative.filter_map(|uri| self.beside(uri, &mut Vec::new()).ok());
         [self.path.clone()].into_iter().chain(beside).collect()
     }
 

@@ -5,6 +5,7 @@ mod file;
 mod lights;
 mod materials;
 mod nodes;
+mod packed;
 mod pose;
 mod primitives;
 

@@ -55,7 +55,6 @@ impl Import<'_> {
             }
             Checked::Invalid => return Err(self.file.fail("a primitive of unknown mode")),
         };
-        self.refuse_draco(primitive)?;
         let material = self.material(primitive)?;
         let vertices = self.vertices(primitive, material, placement)?;
         let count = vertices.positions.len();
@@ -80,21 +79,6 @@ impl Import<'_> {
             let mut face = vertices.face(triangle, base as u32);
             (face.material, face.object) = (material, placement.object);
             self.scene.faces.push(face);
-        }
-        Ok(())
-    }
-
-    /// Draco leaves accessors without data, unless the file also holds what it compressed.
-    fn refuse_draco(&self, primitive: &Primitive) -> Result<()> {
-        const DRACO: &str = "KHR_draco_mesh_compression";
-        let packed =
-            primitive.extensions.as_ref().is_some_and(|all| all.others.contains_key(DRACO));
-        let places = primitive.attributes.get(&Checked::Valid(Semantic::Positions));
-        let empty = places
-            .and_then(|&places| self.file.root.get(places))
-            .is_some_and(|accessor| accessor.buffer_view.is_none() && accessor.sparse.is_none());
-        if packed && empty {
-            return Err(self.file.fail(format!("compressed by {DRACO}, which is not read")));
         }
         Ok(())
     }

@@ -15,7 +15,8 @@ use smallvec::SmallVec;
 use self::library::{Library, Use};
 use self::scan::{FaceLine, Scan};
 use super::notes::note_count;
-use super::{Face, Scene, text};
+use super::{Face, MAX_REFLECTANCE, Scene, text};
+use crate::colour::Rgb;
 use crate::error::{Error, Result};
 
 /// Reads the OBJ file at `path` and its material libraries.
@@ -41,8 +42,35 @@ pub(super) fn read(path: &Path) -> Result<Scene> {
         scene.faces.push(face.ok_or_else(|| unreadable(path, "faces and corners do not match"))?);
         start = end;
     }
+    tint(&mut scene, &scan.colours, fallback.map(|used| used.material));
     smoothing::smooth(&mut scene, &scan.faces);
     Ok(scene)
+}
+
+/// Lets the colours of vertices tint the faces that have no picture; they are all that is known of those without a
+/// material, whose number is `nameless`.
+fn tint(scene: &mut Scene, colours: &[Vec3], nameless: Option<u32>) {
+    let colour = |&vertex: &u32| colours.get(vertex as usize).copied().unwrap_or(Vec3::ONE);
+    let [mut tinted, mut pictured] = [0; 2];
+    for face in &mut scene.faces {
+        let tints: SmallVec<[Vec3; 4]> = face.vertices.iter().map(colour).collect();
+        if tints.iter().all(|tint| *tint == Vec3::ONE) {
+            continue;
+        }
+        let material = &mut scene.materials[face.material as usize];
+        if material.texture.is_some() {
+            pictured += 1;
+            continue;
+        }
+        if Some(face.material) == nameless {
+            material.reflectance = Rgb::splat(MAX_REFLECTANCE);
+        }
+        face.tints = tints;
+        tinted += 1;
+    }
+    let notes = &mut scene.notes;
+    note_count(notes, tinted, "face", "tinted by the colours of its vertices, taken as sRGB");
+    note_count(notes, pictured, "face", "with a picture: the colours of its vertices are ignored");
 }
 
 fn unreadable(path: &Path, reason: &str) -> Error {
@@ -63,7 +91,6 @@ fn note_ignored(scan: &Scan, notes: &mut Vec<String>) {
     note_count(notes, scan.loose, "point-or-line element", "ignored");
     note_count(notes, scan.free_form, "free-form element", "ignored");
     note_count(notes, scan.unused(), "position", "that no face uses ignored");
-    note_count(notes, scan.coloured, "vertex colour", "ignored");
 }
 
 /// The parser's flat lists, read face by face.

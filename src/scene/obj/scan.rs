@@ -6,6 +6,9 @@ use std::fmt::Write;
 use std::iter::repeat;
 use std::path::Path;
 
+use glam::Vec3;
+
+use crate::colour::linear_from_srgb;
 use crate::error::{Error, Result};
 use crate::scene::text::{keyword, lines, name, numbers, words};
 
@@ -30,8 +33,8 @@ pub(super) struct Scan {
     pub(super) free_form: usize,
     /// Indices of the positions that polygons use.
     used: HashSet<usize>,
-    /// Vertices with a colour.
-    pub(super) coloured: usize,
+    /// Reflectances that the colours of vertices mean, 1 where there is none; empty unless one is below 1.
+    pub(super) colours: Vec<Vec3>,
     /// Where in `materials` a name is.
     numbers: HashMap<String, u32>,
     /// Numbers of positions, texture coordinates and normals.
@@ -115,7 +118,7 @@ impl Scan {
             3 => 1.0,
             4 => values[3],
             6.. => {
-                self.coloured += 1;
+                self.colour([values[3], values[4], values[5]]);
                 1.0
             }
             count => return Err(format!("a vertex needs 3 coordinates, here are {count}")),
@@ -126,6 +129,15 @@ impl Scan {
         let kept = if values.len() == 4 { 4 } else { 3 };
         self.emit(0, "v", rest, kept);
         Ok(())
+    }
+
+    /// The colour of the next vertex. As Blender, three.js and `MeshLab` do, it is taken as shown on a screen, in sRGB.
+    fn colour(&mut self, coded: [f64; 3]) {
+        let colour = coded.map(|code| linear_from_srgb(code.clamp(0.0, 1.0)) as f32);
+        if colour != [1.0; 3] {
+            self.colours.resize(self.counts[0], Vec3::ONE);
+            self.colours.push(colour.into());
+        }
     }
 
     /// A texture coordinate or a normal.

@@ -2,22 +2,24 @@
 
 use glam::{DVec3, Vec2};
 
+use super::Texture;
 use crate::colour::Rgb;
-use crate::scene::Texture;
 
-/// Colour at `uv`, origin at the picture's top left, as its sampler mixes texels; white if the texture is empty.
-pub(super) fn sample(texture: &Texture, uv: Vec2) -> Rgb {
-    let at = |index: usize| {
-        let texel = texture.texels.get(index);
-        texel.map_or(Rgb::ONE, |[r, g, b]| DVec3::new(r.into(), g.into(), b.into()))
-    };
-    mixed(texture, uv, at)
-}
+impl Texture {
+    /// Colour at `uv`, origin at the picture's top left, as its sampler mixes texels; white if there are none.
+    pub(crate) fn mixed(&self, uv: Vec2) -> Rgb {
+        let at = |index: usize| {
+            let texel = self.texels.get(index);
+            texel.map_or(Rgb::ONE, |[r, g, b]| DVec3::new(r.into(), g.into(), b.into()))
+        };
+        mixed(self, uv, at)
+    }
 
-/// Opacity at `uv`, 0..=1, mixed likewise.
-pub(super) fn opacity(texture: &Texture, uv: Vec2) -> f64 {
-    let at = |index: usize| texture.alpha.get(index).map_or(1.0, |&alpha| f64::from(alpha) / 255.0);
-    mixed(texture, uv, |index| Rgb::splat(at(index))).x
+    /// Opacity at `uv`, 0..=1, mixed likewise.
+    pub(crate) fn opacity(&self, uv: Vec2) -> f64 {
+        let at = |index: usize| self.alpha.get(index).map_or(1.0, |&a| f64::from(a) / 255.0);
+        mixed(self, uv, |index| Rgb::splat(at(index))).x
+    }
 }
 
 /// What texels hold, by their index, between them.
@@ -61,7 +63,7 @@ mod tests {
     fn texels_keep_their_colour_at_their_centres_and_mix_between() {
         let texture = black_and_white(Wrap::Repeat);
         for (u, expected) in [(0.25, 0.0), (0.75, 1.0), (0.5, 0.5), (1.0, 0.5), (-0.25, 1.0)] {
-            assert!((sample(&texture, Vec2::new(u, 0.5)).x - expected).abs() < 1e-6, "{u}");
+            assert!((texture.mixed(Vec2::new(u, 0.5)).x - expected).abs() < 1e-6, "{u}");
         }
     }
 
@@ -77,7 +79,7 @@ mod tests {
             (Wrap::Mirror, -0.75, 1.0),
             (Wrap::Mirror, 2.25, 0.0),
         ] {
-            let found = sample(&black_and_white(wrap), Vec2::new(u, 0.5)).x;
+            let found = black_and_white(wrap).mixed(Vec2::new(u, 0.5)).x;
             assert_eq!(found, expected, "{wrap:?} {u}");
         }
     }
@@ -86,15 +88,11 @@ mod tests {
     fn nearest_texels_are_not_mixed_and_opacities_are_as_colours_are() {
         let mut texture = black_and_white(Wrap::Repeat);
         texture.alpha = vec![0, 255];
-        assert!((opacity(&texture, Vec2::splat(0.5)) - 0.5).abs() < 1e-6);
+        assert!((texture.opacity(Vec2::splat(0.5)) - 0.5).abs() < 1e-6);
         texture.sampler.nearest = true;
         for (u, expected) in [(0.49, 0.0), (0.51, 1.0), (1.01, 0.0)] {
             let at = Vec2::new(u, 0.5);
-            assert_eq!(
-                (sample(&texture, at).x, opacity(&texture, at)),
-                (expected, expected),
-                "{u}"
-            );
+            assert_eq!((texture.mixed(at).x, texture.opacity(at)), (expected, expected), "{u}");
         }
     }
 }
