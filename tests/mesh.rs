@@ -8,6 +8,7 @@ use common::{Block, Stage, area_of, coarse, furnished_room, shipped, solve};
 use glam::{DAffine3, DVec2, DVec3};
 use proptest::prelude::*;
 use radiosity::mesh::{ElementId, Mesh, Reason, Split};
+use radiosity::surface::Contact;
 use radiosity::surface::cut::{Cuts, convex_pieces};
 use radiosity::surface::polygon::{Ring, Segment, area, edges};
 use radiosity::{Length, Scene, Settings, Surfaces, surfaces_of};
@@ -159,7 +160,7 @@ fn a_concave_polygon_is_one_surface() {
 fn contact_length(surface: &radiosity::surface::Surface) -> f64 {
     // The side and the base of a box both meet a floor along the same line.
     let mut lines: Vec<Segment> = Vec::new();
-    for &[a, b] in &surface.contacts {
+    for &Contact { segment: [a, b], .. } in &surface.contacts {
         let known = |&[p, q]: &Segment| {
             let near = |x: DVec2, y: DVec2| x.distance(y) < 1e-5;
             (near(p, a) && near(q, b)) || (near(p, b) && near(q, a))
@@ -227,7 +228,7 @@ fn assert_no_straddling(scene: &Scene) {
     mesh.validate();
     for leaf in mesh.leaves() {
         let outline = mesh.outline(leaf);
-        for &line in &surfaces.list[mesh.surface_of(leaf)].contacts {
+        for &Contact { segment: line, .. } in &surfaces.list[mesh.surface_of(leaf)].contacts {
             let inside = length_inside(&outline, line, 10.0 * surfaces.tolerance);
             assert!(inside < 1e-4 * surfaces.extent, "{inside} m of {line:?} in {outline:?}");
         }

@@ -67,7 +67,7 @@ impl Lookout {
     fn new((surfaces, mesh): (&Surfaces, &Mesh), vertices: SmallVec<[VertexId; 1]>) -> Self {
         let normal_of = |v: VertexId| surfaces.list[mesh[v].surface as usize].plane.normal;
         if let &[vertex] = vertices.as_slice() {
-            return Self { eye: mesh[vertex].site, normal: normal_of(vertex), vertices };
+            return Self { eye: mesh.outlook(vertex), normal: normal_of(vertex), vertices };
         }
         let site = |v: VertexId| mesh[v].site;
         let middle = vertices.iter().map(|&v| site(v)).sum::<DVec3>() / vertices.len() as f64;

@@ -15,8 +15,10 @@ use super::{Plane, Surface};
 use crate::scene::boxes::{Bounds, Tree, are_close};
 
 /// What faces a surface from less than this share of the scene's extent hovers close over it: a wider gap is wide
-/// enough for elements of its own.
-const CLOSE: f64 = 2e-3;
+/// enough for elements of its own, few times as large as the smallest of [`Settings::draft`].
+///
+/// [`Settings::draft`]: crate::settings::Settings::draft
+const CLOSE: f64 = 1e-2;
 
 /// And than this share of the size of either: light falls gently beside what is far off for its size.
 const CLOSE_FOR_SIZE: f64 = 0.1;
@@ -30,6 +32,15 @@ const SMALLEST: f64 = 1.0 / 2000.0;
 
 /// Surfaces smaller than so many of the smallest elements cannot be divided, and get no lines.
 const DIVISIBLE: f64 = 2.0;
+
+/// A line on a surface along which another surface meets it, or ends close over it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Where it runs, in coordinates of the surface's plane, m.
+    pub segment: Segment,
+    /// How far over the surface the other ends, m; 0 where they meet.
+    pub gap: f64,
+}
 
 /// Distances, m.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +64,7 @@ pub(super) fn find_contacts(surfaces: &mut [Surface], extent: f64, tolerance: f6
         let others = found.iter().map(|&other| other as usize).filter(|&other| other != receiver);
         others.flat_map(|other| near.lines(all, tree.boxes(), [receiver, other])).collect()
     };
-    let lines: Vec<Vec<Segment>> =
+    let lines: Vec<Vec<Contact>> =
         (0..all.len()).into_par_iter().map_init(Vec::new, lines_of).collect();
     surfaces.iter_mut().zip(lines).for_each(|(surface, lines)| surface.contacts = lines);
 }
@@ -98,7 +109,7 @@ impl Near {
         surfaces: &[Surface],
         bounds: &[Bounds],
         [receiver, other]: [usize; 2],
-    ) -> Vec<Segment> {
+    ) -> Vec<Contact> {
         let close = self.reach(bounds[receiver]).min(self.reach(bounds[other]));
         if !are_close(bounds[receiver], bounds[other], close) {
             return Vec::new();
@@ -111,7 +122,7 @@ impl Near {
 type Heights = SmallVec<[SmallVec<[f64; 4]>; 1]>;
 
 /// The lines along which `other` meets the front or the plane of `receiver`, inside of it.
-fn contacts(receiver: &Surface, other: &Surface, [tolerance, close]: [f64; 2]) -> Vec<Segment> {
+fn contacts(receiver: &Surface, other: &Surface, [tolerance, close]: [f64; 2]) -> Vec<Contact> {
     let height = |&p: &_| {
         let height = receiver.plane.height(other.plane.lift(p));
         if height.abs() <= tolerance { 0.0 } else { height }
@@ -127,9 +138,14 @@ fn contacts(receiver: &Surface, other: &Surface, [tolerance, close]: [f64; 2]) -
         return Vec::new();
     }
     let lies = |h: f64| h == 0.0 || hovers;
-    let mut segments = edges_where(lies, receiver, other, &heights);
-    segments.extend(piercing_line(receiver, other, &heights));
-    segments.into_iter().flat_map(|segment| inside(&receiver.rings, segment, tolerance)).collect()
+    let mut lines = edges_where(lies, receiver, other, &heights);
+    let pierced = piercing_line(receiver, other, &heights).into_iter();
+    lines.extend(pierced.map(|segment| Contact { segment, gap: 0.0 }));
+    let parts = |Contact { segment, gap }| {
+        let parts = inside(&receiver.rings, segment, tolerance).into_iter();
+        parts.map(move |segment| Contact { segment, gap })
+    };
+    lines.into_iter().flat_map(parts).collect()
 }
 
 /// Edges of `other`, seen along the receiver's normal, whose ends are at certain heights.
@@ -138,16 +154,18 @@ fn edges_where(
     receiver: &Surface,
     other: &Surface,
     heights: &Heights,
-) -> Vec<Segment> {
-    let mut segments = Vec::new();
+) -> Vec<Contact> {
+    let mut lines = Vec::new();
     for (ring, heights) in other.rings.iter().zip(heights) {
         for (k, edge) in edges(ring).enumerate() {
-            if lies(heights[k]) && lies(heights[(k + 1) % heights.len()]) {
-                segments.push(edge.map(|p| receiver.plane.flatten(other.plane.lift(p))));
+            let ends = [heights[k], heights[(k + 1) % heights.len()]];
+            if ends.into_iter().all(&lies) {
+                let segment = edge.map(|p| receiver.plane.flatten(other.plane.lift(p)));
+                lines.push(Contact { segment, gap: f64::midpoint(ends[0], ends[1]) });
             }
         }
     }
-    segments
+    lines
 }
 
 /// The pieces of the line in which `other` crosses the receiver's plane, in pairs of crossings along it.
@@ -243,7 +261,7 @@ mod tests {
     }
 
     /// Lines of all pairs, large enough, with the same distances.
-    fn of_all_pairs(Surfaces { list, extent, tolerance, .. }: &Surfaces) -> Vec<Vec<Segment>> {
+    fn of_all_pairs(Surfaces { list, extent, tolerance, .. }: &Surfaces) -> Vec<Vec<Contact>> {
         let near = Near::new(*extent, *tolerance);
         let size = |k: usize| list[k].extent();
         let lines = |receiver: usize, other: usize| {
@@ -294,7 +312,11 @@ mod tests {
         let top = surfaces.list.iter().find(|s| s.plane.height(DVec3::Y * 0.74).abs() < 1e-9);
         let lines = &top.expect("the table has a top").contacts;
         assert_eq!(lines.len(), 4, "{lines:?}");
-        assert!((lines.iter().map(|[a, b]| a.distance(*b)).sum::<f64>() - 1.0).abs() < 1e-6);
+        assert!(
+            (lines.iter().map(|line| line.segment[0].distance(line.segment[1])).sum::<f64>() - 1.0)
+                .abs()
+                < 1e-6
+        );
     }
 
     /// Lines of a table with a book on it and a thin shelf under it, on a floor of this length.

@@ -20,6 +20,7 @@ use crate::error::{Error, Result};
 use crate::scene::boxes;
 use crate::scene::{Camera, Material, NamedLight, Node, Scene, Texture};
 
+pub use contact::Contact;
 pub use light_group::{LightGroup, StrengthUnit};
 pub use picture::{mean_reflectance, mean_texture};
 pub use plane::Plane;
@@ -64,7 +65,7 @@ pub struct Surface {
     /// Outer ring first, counter-clockwise; holes clockwise; coordinates of the plane, m.
     pub rings: Vec<Ring>,
     /// Lines along which another surface meets this one, or hovers close over it.
-    pub contacts: Vec<Segment>,
+    pub contacts: Vec<Contact>,
     /// Diffuse reflectance ρ, 0..=0.99, without the tint's and the texture's part.
     pub reflectance: Rgb,
     /// Factor on it by the colours of vertices.
