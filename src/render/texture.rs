@@ -1,6 +1,6 @@
 //! Colours of a texture between its texels.
 
-use glam::{DVec3, Vec2};
+use glam::{DVec2, DVec3, Vec2};
 
 use crate::colour::Rgb;
 use crate::scene::Texture;
@@ -11,35 +11,16 @@ pub(super) fn sample(texture: &Texture, uv: Vec2) -> Rgb {
         let texel = texture.texels.get(index);
         texel.map_or(Rgb::ONE, |[r, g, b]| DVec3::new(r.into(), g.into(), b.into()))
     };
-    mixed(texture, uv, at)
+    texture.mixed(on_texels(texture, uv), at)
 }
 
 /// Opacity at `uv`, 0..=1, mixed likewise.
 pub(super) fn opacity(texture: &Texture, uv: Vec2) -> f64 {
-    let at = |index: usize| texture.alpha.get(index).map_or(1.0, |&alpha| f64::from(alpha) / 255.0);
-    mixed(texture, uv, |index| Rgb::splat(at(index))).x
+    texture.opacity(on_texels(texture, uv))
 }
 
-/// What texels hold, by their index, between them.
-fn mixed(texture: &Texture, uv: Vec2, at: impl Fn(usize) -> Rgb) -> Rgb {
-    if texture.width == 0 || texture.height == 0 || !uv.is_finite() {
-        return Rgb::ONE;
-    }
-    let [wrap_u, wrap_v] = texture.sampler.wrap;
-    let at = |column: f64, row: f64| {
-        let row = wrap_v.texel(row, texture.height);
-        at(row * texture.width as usize + wrap_u.texel(column, texture.width))
-    };
-    let x = f64::from(uv.x) * f64::from(texture.width);
-    let y = f64::from(uv.y) * f64::from(texture.height);
-    if texture.sampler.nearest {
-        return at(x.floor(), y.floor());
-    }
-    let (x, y) = (x - 0.5, y - 0.5);
-    let (column, row) = (x.floor(), y.floor());
-    let above = at(column, row).lerp(at(column + 1.0, row), x - column);
-    let below = at(column, row + 1.0).lerp(at(column + 1.0, row + 1.0), x - column);
-    above.lerp(below, y - row)
+fn on_texels(texture: &Texture, uv: Vec2) -> DVec2 {
+    uv.as_dvec2() * DVec2::new(f64::from(texture.width), f64::from(texture.height))
 }
 
 #[cfg(test)]

@@ -119,4 +119,32 @@ impl Texture {
         let texel = self.texels.get(row * self.width as usize + column);
         texel.map_or(Rgb::ZERO, |texel| Vec3::from(texel).as_dvec3())
     }
+
+    /// Opacity at a place in texels from the top left, 0..=1, as the sampler mixes texels.
+    pub(crate) fn opacity(&self, place: DVec2) -> f64 {
+        let at =
+            |index: usize| self.alpha.get(index).map_or(1.0, |&alpha| f64::from(alpha) / 255.0);
+        self.mixed(place, |index| Rgb::splat(at(index))).x
+    }
+
+    /// What texels hold, by their index, at a place in texels from the top left, as the sampler mixes them; 1 for a
+    /// picture without texels.
+    pub(crate) fn mixed(&self, place: DVec2, at: impl Fn(usize) -> Rgb) -> Rgb {
+        if self.width == 0 || self.height == 0 || !place.is_finite() {
+            return Rgb::ONE;
+        }
+        let [wrap_u, wrap_v] = self.sampler.wrap;
+        let at = |column: f64, row: f64| {
+            let row = wrap_v.texel(row, self.height);
+            at(row * self.width as usize + wrap_u.texel(column, self.width))
+        };
+        if self.sampler.nearest {
+            return at(place.x.floor(), place.y.floor());
+        }
+        let (x, y) = (place.x - 0.5, place.y - 0.5);
+        let (column, row) = (x.floor(), y.floor());
+        let above = at(column, row).lerp(at(column + 1.0, row), x - column);
+        let below = at(column, row + 1.0).lerp(at(column + 1.0, row + 1.0), x - column);
+        above.lerp(below, y - row)
+    }
 }
