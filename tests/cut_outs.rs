@@ -203,16 +203,22 @@ fn a_crowd_of_leaves_has_a_bounded_number_of_corners_and_its_area() {
             face.uvs.iter_mut().for_each(|uv| uv.x += f64::from(k) / f64::from(count) / 50.0);
         }
     }
+    // And one mesh of 40 × 40 squares, each with a hole in it, as large as 400 of them.
+    let grille = stage.cut_out([0.5, 1.0], (16, STEPS), |at| (at - 0.5).abs().max_element() * 2.0);
+    card(&mut stage, grille, [10.0, -1.0], WHOLE.map(|uv| uv * 40.0));
     let exact = surfaces_of(&cut_card((128, Sampler::default()), WHOLE, fingers)).area();
     let surfaces = surfaces_of(&stage.scene);
     let corners: usize = surfaces.list.iter().flat_map(|s| &s.rings).map(Vec::len).sum();
     assert!(corners <= 70_000, "{corners} corners");
-    for leaf in &surfaces.list {
+    let (grille, leaves) = surfaces.list.split_last().unwrap();
+    assert!((grille.area() / 300.0 - 1.0).abs() < 0.02, "{} of 300 m²", grille.area());
+    assert!(grille.rings.len() > 100, "{} rings", grille.rings.len());
+    for leaf in leaves {
         assert!((leaf.area() / exact - 1.0).abs() < 0.02, "{} of {exact} m²", leaf.area());
     }
     assert!(
         surfaces.notes[0]
-            .starts_with("cut-outs: 4000 faces cut along their masks into 4000 pieces"),
+            .starts_with("cut-outs: 4001 faces cut along their masks into 4001 pieces"),
         "{:?}",
         surfaces.notes
     );

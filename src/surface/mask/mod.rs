@@ -23,7 +23,8 @@ use trace::{Lattice, Opaque, outline};
 /// Outlines are true to about this share of a face, or of a picture that is repeated on it.
 const DETAIL: f64 = 1.0 / 128.0;
 
-/// Corners of all outlines of a scene together, about: a tree of 10 000 leaves has six for each.
+/// Corners of all outlines of a scene together, about: half of them are shared out evenly, half by area, so that a
+/// tree of 10 000 leaves has six for each, and a fence beside it hundreds.
 const MOST_CORNERS: usize = 60_000;
 
 /// Least and most corners of the outlines on a face, whatever their number.
@@ -42,10 +43,13 @@ struct CutOut<'a> {
     cutoff: f64,
     /// From plane coordinates to texels; `None` if the picture has no place on it.
     texels: Option<DAffine2>,
+    /// Of the region, m².
+    area: f64,
 }
 
-/// What outlines depend on: the picture, the bits of the cutoff and of the detail, and where it is looked at.
-type Key = (u32, u64, u64, Lattice);
+/// What outlines depend on: the picture and the bits of the cutoff, the bits of the detail and the most corners, and where
+/// the picture is looked at.
+type Key = ([u64; 2], (u64, usize), Lattice);
 
 /// Regions of cut-outs reduced to what is there of them; what was done is told in `notes`.
 ///
@@ -57,12 +61,17 @@ pub(super) fn cut(scene: &Scene, regions: Vec<Region>, notes: &mut Vec<String>) 
     if cut_outs.is_empty() {
         return regions;
     }
-    let [least, most] = CORNERS_OF_ONE;
-    let corners = (MOST_CORNERS / cut_outs.len()).clamp(least, most);
-    let keys: Vec<Option<Key>> = cut_outs.iter().map(|one| one.key(&regions)).collect();
+    let area: f64 = cut_outs.iter().map(|one| one.area).sum();
+    let corners = |one: &CutOut| {
+        let share = (1.0 / cut_outs.len() as f64 + one.area / area) / 2.0;
+        let [least, most] = CORNERS_OF_ONE;
+        ((share * MOST_CORNERS as f64).round() as usize).clamp(least, most)
+    };
+    let keys: Vec<Option<Key>> =
+        cut_outs.iter().map(|one| one.key(&regions, corners(one))).collect();
     let by_key: BTreeMap<Key, &CutOut> =
         keys.iter().zip(&cut_outs).filter_map(|(key, one)| Some(((*key)?, one))).collect();
-    let outlined = |(key, one): (Key, &CutOut)| (key, one.outline(key, corners));
+    let outlined = |(key, one): (Key, &CutOut)| (key, one.outline(key));
     let outlines: BTreeMap<Key, Opaque> = by_key.into_par_iter().map(outlined).collect();
     let tolerance = TOLERANCE * scene.extent();
     let left = |(one, key): (&CutOut, &Option<Key>)| {
@@ -95,30 +104,32 @@ impl<'a> CutOut<'a> {
         if texture.alpha.is_empty() {
             return None;
         }
-        let size = DVec2::new(f64::from(texture.width), f64::from(texture.height));
-        let texels = regions[region].look.uv.map(|uv| scaled(uv, size)).filter(|texels| {
+        let counts = DVec2::new(f64::from(texture.width), f64::from(texture.height));
+        let texels = regions[region].look.uv.map(|uv| scaled(uv, counts)).filter(|texels| {
             let [first, second] = [texels.matrix2.x_axis, texels.matrix2.y_axis];
             // Texels much longer than wide come of a picture that is drawn out of a line of it.
             texels.inverse().is_finite()
                 && first.perp_dot(second).abs() > 1e-6 * first.length().max(second.length()).powi(2)
         });
-        Some(Self { region, number, texture, cutoff, texels })
+        let area = size(&regions[region].rings);
+        Some(Self { region, number, texture, cutoff, texels, area })
     }
 
     /// What the outlines on the region depend on.
-    fn key(&self, regions: &[Region]) -> Option<Key> {
+    fn key(&self, regions: &[Region], corners: usize) -> Option<Key> {
         let texels = self.texels?;
         let rings = &regions[self.region].rings;
         let places: Vec<DVec2> =
             rings.iter().flatten().map(|&p| texels.transform_point2(p)).collect();
         let [low, high] = bounds(&places);
-        let picture = f64::from(self.texture.width.max(self.texture.height));
-        let detail = DETAIL * (high - low).max_element().min(picture);
+        let period = f64::from(self.texture.width.max(self.texture.height));
+        let detail = DETAIL * (high - low).max_element().min(period);
         let lattice = Lattice::over([low, high], detail, self.texture);
-        (detail > 0.0).then(|| (self.number, self.cutoff.to_bits(), detail.to_bits(), lattice))
+        let picture = [u64::from(self.number), self.cutoff.to_bits()];
+        (detail > 0.0).then_some((picture, (detail.to_bits(), corners), lattice))
     }
 
-    fn outline(&self, (_, _, detail, lattice): Key, corners: usize) -> Opaque {
+    fn outline(&self, (_, (detail, corners), lattice): Key) -> Opaque {
         let limits = Limits { area: f64::from_bits(detail).powi(2), corners };
         match outline(self.texture, self.cutoff, lattice) {
             Opaque::Whole => Opaque::Whole,
@@ -150,8 +161,8 @@ impl<'a> CutOut<'a> {
     }
 }
 
-fn scaled(uv: DAffine2, size: DVec2) -> DAffine2 {
-    DAffine2::from_mat2(DMat2::from_diagonal(size)) * uv
+fn scaled(uv: DAffine2, counts: DVec2) -> DAffine2 {
+    DAffine2::from_mat2(DMat2::from_diagonal(counts)) * uv
 }
 
 /// What rings on a plane have in common with rings in texels, on the plane: outlines with holes.
@@ -235,7 +246,7 @@ fn tell(cut_outs: &[CutOut], regions: &[Region], left: &[Left], notes: &mut Vec<
             unplaced += region.faces.len();
             continue;
         }
-        let own = size(&region.rings);
+        let own = one.area;
         whole += own;
         covered += match left {
             Left::All => own,

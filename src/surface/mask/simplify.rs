@@ -55,20 +55,30 @@ pub(super) fn simplified(rings: &[Ring], limits: Limits) -> Vec<Ring> {
     let mut rings = chain.rings();
     dropped.sort_by_key(|(ring, _)| *ring);
     let dropped: Vec<Ring> = dropped.into_iter().map(|(_, ring)| ring).collect();
-    let sum: f64 = dropped.iter().map(|ring| area(ring).abs()).sum();
-    rings.extend(gathered(&dropped, largest.max(8.0 * sum / limits.corners as f64)));
+    let sums = sums(&dropped);
+    let coarse = largest.max(8.0 * (sums[0] + sums[1]) / limits.corners as f64);
+    // Of what is worth a ring, there is one at least.
+    let least = sums.map(|sum| if sum < largest { coarse } else { coarse.min(0.999 * sum) });
+    rings.extend(gathered(&dropped, least));
     rings
 }
 
+/// Area of islands and of holes.
+fn sums(rings: &[Ring]) -> [f64; 2] {
+    let areas = || rings.iter().map(|ring| area(ring));
+    [areas().map(|area| area.max(0.0)).sum(), areas().map(|area| (-area).max(0.0)).sum()]
+}
+
 /// Of small rings as many as have the area of all, each at least `least`; islands and holes for themselves.
-fn gathered(rings: &[Ring], least: f64) -> Vec<Ring> {
+fn gathered(rings: &[Ring], least: [f64; 2]) -> Vec<Ring> {
     let mut carried = [0.0; 2];
     let mut kept = Vec::new();
     for ring in rings {
         let own = area(ring).abs();
-        let sum = &mut carried[usize::from(area(ring) < 0.0)];
+        let kind = usize::from(area(ring) < 0.0);
+        let sum = &mut carried[kind];
         *sum += own;
-        if *sum >= least && own > 0.0 {
+        if *sum >= least[kind] && own > 0.0 {
             let (middle, scale) = (centroid(ring), (*sum / own).sqrt());
             kept.push(ring.iter().map(|&p| middle + (p - middle) * scale).collect());
             *sum = 0.0;
