@@ -20,12 +20,15 @@ use crate::scene::{Face, Material, Scene, Texture, counted, note_count};
 use simplify::{Limits, simplified};
 use trace::{Lattice, Opaque, outline};
 
-/// Outlines are true to about this share of a face, or of a picture that is repeated on it.
-const DETAIL: f64 = 1.0 / 128.0;
+/// Outlines are true to about this share of a scene,
+const DETAIL_OF_SCENE: f64 = 1.0 / 2000.0;
+
+/// but to no less and no more than these shares of a face, or of a picture that is repeated on it.
+const DETAIL_OF_FACE: [f64; 2] = [1.0 / 128.0, 1.0 / 32.0];
 
 /// Corners of all outlines of a scene together, about: half of them are shared out evenly, half by area, so that a
 /// tree of 10 000 leaves has six for each, and a fence beside it hundreds.
-const MOST_CORNERS: usize = 60_000;
+const MOST_CORNERS: usize = 40_000;
 
 /// Least and most corners of the outlines on a face, whatever their number.
 const CORNERS_OF_ONE: [usize; 2] = [6, 4000];
@@ -67,8 +70,9 @@ pub(super) fn cut(scene: &Scene, regions: Vec<Region>, notes: &mut Vec<String>) 
         let [least, most] = CORNERS_OF_ONE;
         ((share * MOST_CORNERS as f64).round() as usize).clamp(least, most)
     };
+    let detail = DETAIL_OF_SCENE * scene.extent();
     let keys: Vec<Option<Key>> =
-        cut_outs.iter().map(|one| one.key(&regions, corners(one))).collect();
+        cut_outs.iter().map(|one| one.key(&regions, corners(one), detail)).collect();
     let by_key: BTreeMap<Key, &CutOut> =
         keys.iter().zip(&cut_outs).filter_map(|(key, one)| Some(((*key)?, one))).collect();
     let outlined = |(key, one): (Key, &CutOut)| (key, one.outline(key));
@@ -116,14 +120,18 @@ impl<'a> CutOut<'a> {
     }
 
     /// What the outlines on the region depend on.
-    fn key(&self, regions: &[Region], corners: usize) -> Option<Key> {
+    fn key(&self, regions: &[Region], corners: usize, detail: f64) -> Option<Key> {
         let texels = self.texels?;
         let rings = &regions[self.region].rings;
         let places: Vec<DVec2> =
             rings.iter().flatten().map(|&p| texels.transform_point2(p)).collect();
         let [low, high] = bounds(&places);
         let period = f64::from(self.texture.width.max(self.texture.height));
-        let detail = DETAIL * (high - low).max_element().min(period);
+        let [least, most] =
+            DETAIL_OF_FACE.map(|share| share * (high - low).max_element().min(period));
+        let detail = (detail * texels.matrix2.determinant().abs().sqrt()).clamp(least, most);
+        // Rounded, so that faces laid out alike share their outline wherever they are.
+        let detail = ((8.0 * detail.log2()).round() / 8.0).exp2();
         let lattice = Lattice::over([low, high], detail, self.texture);
         let picture = [u64::from(self.number), self.cutoff.to_bits()];
         (detail > 0.0).then_some((picture, (detail.to_bits(), corners), lattice))

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use glam::DVec2;
 
-use crate::surface::polygon::{Ring, area, centroid};
+use crate::surface::polygon::{Ring, area, bounds, centroid};
 
 /// How far rings are simplified.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +20,7 @@ pub(super) struct Limits {
 ///
 /// The edge between two corners becomes one corner on the line of the edge before or after it, placed so that no area is
 /// gained or lost ([Kronenfeld et al. 2020]); that which moves least area first. Rings that come to nothing leave their
-/// area to those after them: fine grain becomes coarse grain that covers as much.
+/// area to others near them: fine grain becomes coarse grain that covers as much.
 ///
 /// [Kronenfeld et al. 2020]: https://doi.org/10.1080/15230406.2019.1631736
 pub(super) fn simplified(rings: &[Ring], limits: Limits) -> Vec<Ring> {
@@ -29,6 +29,7 @@ pub(super) fn simplified(rings: &[Ring], limits: Limits) -> Vec<Ring> {
     for corner in 0..chain.corners.len() {
         waiting.push(Reverse(chain.change(corner)));
     }
+    let span = bounds(rings.iter().flatten());
     let (mut left, mut largest) = (chain.corners.len(), limits.area);
     let mut dropped = Vec::new();
     while let Some(Reverse(change)) = waiting.pop() {
@@ -53,7 +54,7 @@ pub(super) fn simplified(rings: &[Ring], limits: Limits) -> Vec<Ring> {
         }
     }
     let mut rings = chain.rings();
-    dropped.sort_by_key(|(ring, _)| *ring);
+    dropped.sort_by_key(|(number, ring)| (along_curve(centroid(ring), span), *number));
     let dropped: Vec<Ring> = dropped.into_iter().map(|(_, ring)| ring).collect();
     let sums = sums(&dropped);
     let coarse = largest.max(8.0 * (sums[0] + sums[1]) / limits.corners as f64);
@@ -61,6 +62,13 @@ pub(super) fn simplified(rings: &[Ring], limits: Limits) -> Vec<Ring> {
     let least = sums.map(|sum| if sum < largest { coarse } else { coarse.min(0.999 * sum) });
     rings.extend(gathered(&dropped, least));
     rings
+}
+
+/// How far along Morton's curve a place in a box is: what follows each other there lies together.
+fn along_curve(place: DVec2, [low, high]: [DVec2; 2]) -> u64 {
+    let share = (place - low) / (high - low).max_element().max(f64::MIN_POSITIVE);
+    let [x, y] = share.to_array().map(|share| (share.clamp(0.0, 1.0) * 65_535.0) as u64);
+    (0..16).fold(0, |sum, bit| sum | (x >> bit & 1) << (2 * bit) | (y >> bit & 1) << (2 * bit + 1))
 }
 
 /// Area of islands and of holes.
@@ -71,17 +79,18 @@ fn sums(rings: &[Ring]) -> [f64; 2] {
 
 /// Of small rings as many as have the area of all, each at least `least`; islands and holes for themselves.
 fn gathered(rings: &[Ring], least: [f64; 2]) -> Vec<Ring> {
-    let mut carried = [0.0; 2];
+    let (mut carried, mut moments) = ([0.0; 2], [DVec2::ZERO; 2]);
     let mut kept = Vec::new();
     for ring in rings {
         let own = area(ring).abs();
         let kind = usize::from(area(ring) < 0.0);
         let sum = &mut carried[kind];
         *sum += own;
+        moments[kind] += centroid(ring) * own;
         if *sum >= least[kind] && own > 0.0 {
-            let (middle, scale) = (centroid(ring), (*sum / own).sqrt());
-            kept.push(ring.iter().map(|&p| middle + (p - middle) * scale).collect());
-            *sum = 0.0;
+            let (from, to, scale) = (centroid(ring), moments[kind] / *sum, (*sum / own).sqrt());
+            kept.push(ring.iter().map(|&p| to + (p - from) * scale).collect());
+            (*sum, moments[kind]) = (0.0, DVec2::ZERO);
         }
     }
     kept
