@@ -9,8 +9,9 @@ use common::{
     Block, Stage, area_of, assert_sane, coarse, corners, furnished_room, mean_radiosity, mesh_of,
     shipped, triangle_area,
 };
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use proptest::prelude::*;
+use radiosity::scene::Sampler;
 use radiosity::{Scene, Settings, TriMesh, surfaces_of};
 
 /// Corners of triangles by where they are, each with the unit normal of a triangle that has it.
@@ -133,6 +134,31 @@ fn assert_sound(scene: &Scene) {
 fn shipped_scenes_come_out_whole_and_without_cracks() {
     for name in ["cornell-box.obj", "two-rooms.obj", "blocker.obj", "office.obj"] {
         assert_sound(&shipped(name));
+    }
+}
+
+#[test]
+fn cut_outs_come_out_whole_and_without_cracks() {
+    for nearest in [false, true] {
+        let mut stage = Stage::default();
+        let grey = stage.material(0.5, 0.0);
+        let light = stage.material(0.0, 20.0);
+        stage.room(grey, DVec3::ZERO, DVec3::splat(2.0));
+        stage.lamp(light, DVec3::new(0.5, 1.9, 0.5), DVec3::new(1.5, 1.9, 1.5));
+        let sampler = Sampler { nearest, ..Sampler::default() };
+        let ring = |at: DVec2| 0.5 + 8.0 * (0.1 - (at.distance(DVec2::splat(0.5)) - 0.3).abs());
+        let leaf = stage.cut_out([0.6, 0.0], (24, sampler), ring);
+        stage.scene.materials[leaf as usize].double_sided = true;
+        // One lies on the floor, one stands on it and leans on a wall.
+        for height in [0.0, 0.8] {
+            let corners =
+                [[0.2, 0.0, 1.5], [1.4, 0.0, 1.5], [1.4, height, 0.0], [0.2, height, 0.0]];
+            let square = [DVec2::Y, DVec2::ONE, DVec2::X, DVec2::ZERO];
+            stage.polygon(leaf, &corners.map(DVec3::from)).uvs =
+                square.map(|uv| uv * 2.0).as_slice().into();
+        }
+        // Cuts on from the edges of an outline pass its many corners more closely than anything passes boxes.
+        assert_sound(&stage.scene.build().unwrap(), 3e-7);
     }
 }
 

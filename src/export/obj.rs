@@ -63,7 +63,7 @@ pub(crate) fn save(look: &Look, path: &Path) -> Result<()> {
         groups.iter().zip(&names).filter(|(_, name)| written.insert(*name)).try_for_each(
             |(group, name)| {
                 let picture = group.texture.map(|texture| picture_name(look, &stem, texture));
-                write_material(name, picture.as_deref(), out)
+                write_material(name, picture.as_deref(), group.cutoff.is_some(), out)
             },
         )
     })?;
@@ -143,9 +143,17 @@ impl<W: Write> Body<'_, W> {
     }
 }
 
-/// A material that shows its colour as it is, `illum 0`: the light is already in it.
-fn write_material(name: &str, picture: Option<&str>, out: &mut impl Write) -> io::Result<()> {
+/// A material that shows its colour as it is, `illum 0`: the light is already in it. Holes are those of its picture's alpha.
+fn write_material(
+    name: &str,
+    picture: Option<&str>,
+    has_holes: bool,
+    out: &mut impl Write,
+) -> io::Result<()> {
     writeln!(out, "newmtl {name}\nKd 1 1 1\nillum 0")?;
+    if let Some(picture) = picture.filter(|_| has_holes) {
+        writeln!(out, "map_d {picture}")?;
+    }
     match picture {
         Some(picture) => writeln!(out, "{MAP}{picture}\n"),
         None => writeln!(out),

@@ -40,6 +40,9 @@ const DIRECT_SHARE: f64 = 1.0 / 3.0;
 /// Light from other surfaces is held to this share: it is smooth, and costs much.
 const REFLECTED_SHARE: f64 = 1.5;
 
+/// And to this beside the outline of what hovers close over a surface, where it has an edge, too.
+const OUTLINE_SHARE: f64 = 0.5;
+
 /// Light is judged as if at least this share of the mean were there: errors in the dark count for little.
 const DARKEST: f64 = 0.05;
 
@@ -49,6 +52,8 @@ pub use lines::{Discontinuity, cut, discontinuities};
 #[derive(Clone, Debug)]
 pub struct Oracle {
     tolerance: f64,
+    /// That of elements beside the outline of what hovers over them.
+    outline_tolerance: f64,
     min_element: f64,
     max_level: u32,
     plain_size: f64,
@@ -85,6 +90,7 @@ impl Oracle {
     fn new(settings: &Settings, share: f64, (extent, mesh): (f64, &Mesh)) -> Self {
         Self {
             tolerance: settings.tolerance * share,
+            outline_tolerance: settings.tolerance * share.min(OUTLINE_SHARE),
             min_element: settings.min_element.metres(extent),
             max_level: settings.max_level,
             plain_size: PLAIN_SIZE * extent,
@@ -179,7 +185,9 @@ impl Oracle {
     fn allowed(&self, mesh: &Mesh, element: ElementId, corners: &[Rgb]) -> f64 {
         let here = corners.iter().map(|&c| strength(c)).sum::<f64>() / corners.len() as f64;
         let around = (self.level * here.max(DARKEST * self.level)).sqrt();
-        self.tolerance * around * by_size(self.plain_size, mesh[element].area)
+        let is_beside = mesh[element].corners.iter().any(|&corner| mesh.gap_over(corner) > 0.0);
+        let tolerance = if is_beside { self.outline_tolerance } else { self.tolerance };
+        tolerance * around * by_size(self.plain_size, mesh[element].area)
     }
 
     /// The least error that an element is allowed, however little light there is, W/m².

@@ -119,6 +119,7 @@ impl Texture {
         let texel = self.texels.get(row * self.width as usize + column);
         texel.map_or(Rgb::ZERO, |texel| Vec3::from(texel).as_dvec3())
     }
+
     /// The same in half as many columns and rows, each texel the mean of four; no longer as a file had it.
     pub(crate) fn halved(&self) -> Self {
         let [width, height] = [self.width, self.height].map(|side| side.div_ceil(2));

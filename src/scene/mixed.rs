@@ -1,6 +1,6 @@
 //! Colours of a texture between its texels.
 
-use glam::{DVec3, Vec2};
+use glam::{DVec2, DVec3, Vec2};
 
 use super::Texture;
 use crate::colour::Rgb;
@@ -12,36 +12,45 @@ impl Texture {
             let texel = self.texels.get(index);
             texel.map_or(Rgb::ONE, |[r, g, b]| DVec3::new(r.into(), g.into(), b.into()))
         };
-        mixed(self, uv, at)
+        self.mix(self.on_texels(uv), at)
     }
 
     /// Opacity at `uv`, 0..=1, mixed likewise.
     pub(crate) fn opacity(&self, uv: Vec2) -> f64 {
-        let at = |index: usize| self.alpha.get(index).map_or(1.0, |&a| f64::from(a) / 255.0);
-        mixed(self, uv, |index| Rgb::splat(at(index))).x
+        self.opacity_at(self.on_texels(uv))
     }
-}
 
-/// What texels hold, by their index, between them.
-fn mixed(texture: &Texture, uv: Vec2, at: impl Fn(usize) -> Rgb) -> Rgb {
-    if texture.width == 0 || texture.height == 0 || !uv.is_finite() {
-        return Rgb::ONE;
+    fn on_texels(&self, uv: Vec2) -> DVec2 {
+        uv.as_dvec2() * DVec2::new(f64::from(self.width), f64::from(self.height))
     }
-    let [wrap_u, wrap_v] = texture.sampler.wrap;
-    let at = |column: f64, row: f64| {
-        let row = wrap_v.texel(row, texture.height);
-        at(row * texture.width as usize + wrap_u.texel(column, texture.width))
-    };
-    let x = f64::from(uv.x) * f64::from(texture.width);
-    let y = f64::from(uv.y) * f64::from(texture.height);
-    if texture.sampler.nearest {
-        return at(x.floor(), y.floor());
+
+    /// Opacity at a place in texels from the top left, 0..=1.
+    pub(crate) fn opacity_at(&self, place: DVec2) -> f64 {
+        let at =
+            |index: usize| self.alpha.get(index).map_or(1.0, |&alpha| f64::from(alpha) / 255.0);
+        self.mix(place, |index| Rgb::splat(at(index))).x
     }
-    let (x, y) = (x - 0.5, y - 0.5);
-    let (column, row) = (x.floor(), y.floor());
-    let above = at(column, row).lerp(at(column + 1.0, row), x - column);
-    let below = at(column, row + 1.0).lerp(at(column + 1.0, row + 1.0), x - column);
-    above.lerp(below, y - row)
+
+    /// What texels hold, by their index, at a place in texels from the top left, as the sampler mixes them; 1 for a
+    /// picture without texels.
+    pub(crate) fn mix(&self, place: DVec2, at: impl Fn(usize) -> Rgb) -> Rgb {
+        if self.width == 0 || self.height == 0 || !place.is_finite() {
+            return Rgb::ONE;
+        }
+        let [wrap_u, wrap_v] = self.sampler.wrap;
+        let at = |column: f64, row: f64| {
+            let row = wrap_v.texel(row, self.height);
+            at(row * self.width as usize + wrap_u.texel(column, self.width))
+        };
+        if self.sampler.nearest {
+            return at(place.x.floor(), place.y.floor());
+        }
+        let (x, y) = (place.x - 0.5, place.y - 0.5);
+        let (column, row) = (x.floor(), y.floor());
+        let above = at(column, row).lerp(at(column + 1.0, row), x - column);
+        let below = at(column, row + 1.0).lerp(at(column + 1.0, row + 1.0), x - column);
+        above.lerp(below, y - row)
+    }
 }
 
 #[cfg(test)]

@@ -48,7 +48,7 @@ pub use light::{DESIGN_SKY, Light, NamedLight, Sky, clear_sun};
 pub use load::load;
 pub use material::{MAX_REFLECTANCE, Material, Sampler, Texture, Wrap};
 pub(crate) use names::{matches, named};
-pub(crate) use notes::note_count;
+pub(crate) use notes::{counted, note_count};
 pub use photometry::Photometry;
 pub(crate) use polygon::area_vector;
 pub use sides::{Sides, settle_sides};

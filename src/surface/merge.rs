@@ -18,6 +18,8 @@ pub(super) struct Region {
     /// Outer ring first, counter-clockwise; holes clockwise.
     pub(super) rings: Vec<Ring>,
     pub(super) look: Look,
+    /// Unit normals of the curved surface that it stands for, one a corner of the outer ring; empty if flat.
+    pub(super) normals: Vec<DVec3>,
 }
 
 /// How what the corners of faces carry continues over their plane.
@@ -65,7 +67,8 @@ pub(super) fn regions(scene: &Scene, tolerance: f64) -> Vec<Region> {
             next += 1;
         }
         let rings = outline(scene, &plane, &faces);
-        regions.push(Region { plane, faces, rings, look });
+        let normals = normals_of(&scene.faces[seed]);
+        regions.push(Region { plane, faces, rings, look, normals });
     }
     regions
 }
@@ -75,9 +78,14 @@ pub(super) fn single_faces(scene: &Scene) -> Vec<Region> {
     let region = |(index, face): (usize, &Face)| {
         let plane = plane_of(scene, face);
         let look = Look::of(scene, &plane, face);
-        Region { plane, faces: vec![index], rings: outline(scene, &plane, &[index]), look }
+        let rings = outline(scene, &plane, &[index]);
+        Region { plane, faces: vec![index], rings, look, normals: normals_of(face) }
     };
     scene.faces.iter().enumerate().map(region).collect()
+}
+
+fn normals_of(face: &Face) -> Vec<DVec3> {
+    face.normals.iter().map(|normal| normal.as_dvec3()).collect()
 }
 
 /// Directed edges and the faces that have them, in order.

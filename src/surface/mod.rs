@@ -3,6 +3,7 @@
 mod contact;
 pub mod cut;
 mod light_group;
+mod mask;
 mod merge;
 mod outliers;
 mod overlap;
@@ -99,21 +100,27 @@ pub fn surfaces_of(scene: &Scene) -> Surfaces {
     }
     let regions = merge::regions(scene, TOLERANCE * scene.extent());
     let mut notes = Vec::new();
+    let regions = mask::cut(scene, regions, &mut notes);
     let regions = overlap::without_overlaps(scene, regions, &mut notes);
-    Surfaces { notes, ..with_contacts(of_regions(scene, regions)) }
+    with_contacts(of_regions(scene, regions), notes)
 }
 
-/// The faces of a scene, each a surface of its own, and their contact lines; or a [flaw](Surfaces::flaw).
+/// The faces of a scene, each a surface of its own, or several if its material has holes, and their contact lines; or a [flaw](Surfaces::flaw).
 pub fn faces_of(scene: &Scene) -> Surfaces {
     if let Some(flaw) = scene.flaw() {
         return Surfaces::none(flaw);
     }
-    with_contacts(of_regions(scene, merge::single_faces(scene)))
+    let mut notes = Vec::new();
+    let regions = mask::cut(scene, merge::single_faces(scene), &mut notes);
+    with_contacts(of_regions(scene, regions), notes)
 }
 
-fn with_contacts(mut surfaces: Surfaces) -> Surfaces {
+fn with_contacts(mut surfaces: Surfaces, notes: Vec<String>) -> Surfaces {
+    if surfaces.list.is_empty() {
+        return Surfaces::none("cut-outs leave nothing of the scene's faces".to_owned());
+    }
     contact::find_contacts(&mut surfaces.list, surfaces.extent, surfaces.tolerance);
-    surfaces
+    Surfaces { notes, ..surfaces }
 }
 
 fn of_regions(scene: &Scene, regions: Vec<merge::Region>) -> Surfaces {
@@ -193,7 +200,7 @@ impl Surface {
             material: face.material,
             object: face.object,
             uv: region.look.uv,
-            normals: face.normals.iter().map(|n| n.as_dvec3()).collect(),
+            normals: region.normals,
             two_sided: material.double_sided,
             is_back: false,
         }

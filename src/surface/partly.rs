@@ -76,11 +76,11 @@ fn size(shape: &[Ring]) -> f64 {
     shape.iter().map(|ring| area(ring)).sum()
 }
 
-fn plain(rings: &[Ring]) -> Vec<Vec<[f64; 2]>> {
+pub(super) fn plain(rings: &[Ring]) -> Vec<Vec<[f64; 2]>> {
     rings.iter().map(|ring| ring.iter().map(DVec2::to_array).collect()).collect()
 }
 
-fn rings_of(shapes: Vec<Vec<Vec<[f64; 2]>>>) -> Vec<Vec<Ring>> {
+pub(super) fn rings_of(shapes: Vec<Vec<Vec<[f64; 2]>>>) -> Vec<Vec<Ring>> {
     let ring = |ring: Vec<[f64; 2]>| ring.into_iter().map(DVec2::from).collect();
     shapes.into_iter().map(|shape| shape.into_iter().map(ring).collect()).collect()
 }
@@ -95,7 +95,9 @@ fn split(regions: &mut Vec<Region>, pieces: Vec<Option<Vec<Vec<Ring>>>>) {
         };
         for rings in pieces {
             let Region { plane, ref faces, look, .. } = region;
-            regions.push(Region { plane, faces: faces.clone(), rings, look });
+            // Those of its old corners are not those of its new ones.
+            let normals = Vec::new();
+            regions.push(Region { plane, faces: faces.clone(), rings, look, normals });
         }
     }
 }

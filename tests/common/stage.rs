@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3};
 use radiosity::Scene;
 use radiosity::colour::Rgb;
-use radiosity::scene::{Face, Material};
+use radiosity::scene::{Face, Material, Sampler, Texture};
 
 /// A scene under construction; equal positions are shared.
 #[derive(Clone, Debug, Default)]
@@ -45,6 +45,32 @@ impl Stage {
     pub fn double_sided(&mut self, reflectance: f64, radiance: f64) -> u32 {
         let number = self.material(reflectance, radiance);
         self.scene.materials[number as usize].double_sided = true;
+        number
+    }
+
+    /// As [`Self::material`], with a white picture of size × size texels, and holes where its opacity, 0..=1, is below
+    /// one half. Opacity is told by where a texel's middle is in the picture.
+    pub fn cut_out(
+        &mut self,
+        [reflectance, radiance]: [f64; 2],
+        (size, sampler): (u32, Sampler),
+        opacity: impl Fn(DVec2) -> f64,
+    ) -> u32 {
+        let number = self.material(reflectance, radiance);
+        let texels = (0..size * size).map(|texel| [texel % size, texel / size]);
+        let at = |texel: [u32; 2]| (DVec2::from(texel.map(f64::from)) + 0.5) / f64::from(size);
+        let code = |texel| (opacity(at(texel)).clamp(0.0, 1.0) * 255.0).round() as u8;
+        self.scene.textures.push(Texture {
+            width: size,
+            height: size,
+            texels: vec![[1.0; 3]; (size * size) as usize].into(),
+            alpha: texels.map(code).collect(),
+            sampler,
+            ..Texture::default()
+        });
+        let material = &mut self.scene.materials[number as usize];
+        material.texture = Some(self.scene.textures.len() as u32 - 1);
+        material.cutoff = Some(0.5);
         number
     }
 

@@ -288,3 +288,30 @@ fn colours_are_all_that_is_known_of_what_has_no_material_and_white_says_nothing(
     assert!(late.faces[0].tints.is_empty());
     assert_eq!(late.faces[1].tints[..], [Vec3::ONE, Vec3::ZERO, Vec3::ONE]);
 }
+
+#[test]
+fn opacity_pictures_cut_holes_into_colours_and_into_what_has_none() {
+    let grey = image::GrayImage::from_fn(2, 1, |x, _| image::Luma([255 * x as u8]));
+    let mut mask = std::io::Cursor::new(Vec::new());
+    grey.write_to(&mut mask, image::ImageFormat::Png).unwrap();
+    let obj = format!(
+        "mtllib m.mtl\n{SQUARE}vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3 4/4\n"
+    );
+    let load = |mtl: &str| {
+        let folder =
+            Folder::new().with("s.obj", &obj).with("m.mtl", mtl).with("red.png", red_png());
+        folder.with("mask.png", mask.get_ref()).load("s.obj").unwrap()
+    };
+    for (colours, expected) in [("map_Kd red.png\n", DVec3::X), ("Kd 0.5 0.5 0.5\n", DVec3::ONE)] {
+        let scene = load(&format!("newmtl a\n{colours}map_d mask.png\n"));
+        assert_eq!(scene.materials[0].cutoff, Some(0.5));
+        let texture = &scene.textures[scene.materials[0].texture.unwrap() as usize];
+        assert_eq!(texture.alpha, [0, 255]);
+        assert_eq!(texture.sample(DVec2::new(0.75, 0.5)), expected);
+        let area = radiosity::surfaces_of(&scene).area();
+        assert!((area - 0.5).abs() < 1e-9, "{area} m²");
+    }
+    let turned = load("newmtl a\nmap_Kd red.png\nmap_d -s 2 2 mask.png\n");
+    assert_eq!(turned.materials[0].cutoff, None);
+    assert!(turned.notes[0].contains("laid on unlike"), "{:?}", turned.notes);
+}

@@ -37,7 +37,7 @@ pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Known> {
     };
     let mut known = Known::default();
     let (mut metals, mut clear) = (Vec::new(), Vec::new());
-    let (mut dim, mut cut_out) = (Vec::new(), Vec::new());
+    let mut dim = Vec::new();
     for (index, from) in file.root.materials.iter().enumerate() {
         let (material, mapping) = reader.material(index, from)?;
         if is_metal(from) {
@@ -47,9 +47,9 @@ pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Known> {
         if through > MOSTLY_CLEAR && material.emission == Rgb::ZERO {
             clear.push(material.name.clone());
             known.clear.push(index);
-        } else if material.cutoff.is_some() {
-            cut_out.push(material.name.clone());
-        } else if through > 0.0 || from.alpha_mode != Checked::Valid(AlphaMode::Opaque) {
+        } else if material.cutoff.is_none()
+            && (through > 0.0 || from.alpha_mode != Checked::Valid(AlphaMode::Opaque))
+        {
             dim.push(material.name.clone());
         }
         reader.scene.materials.push(material);
@@ -65,11 +65,6 @@ pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Known> {
     if !clear.is_empty() {
         let names = listed(&clear);
         scene.notes.push(format!("left out, as they let most light through: {names}"));
-    }
-    if !cut_out.is_empty() {
-        let names = listed(&cut_out);
-        let what = "cut-outs are shown with their holes, which hold light back all the same";
-        scene.notes.push(format!("{what}: {names}"));
     }
     if !dim.is_empty() {
         scene.notes.push(format!("transparency ignored, taken as opaque: {}", listed(&dim)));

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use glam::{DAffine2, DMat2, DVec2};
 
+use super::holes::{self, with_holes};
 use super::mtl::{self, Map, MtlMaterial};
 use crate::colour::Rgb;
 use crate::scene::named::find;
@@ -34,6 +35,8 @@ pub(super) struct Library {
     folder: PathBuf,
     /// Pictures read so far, by file and whether clamped; `None` for unreadable ones.
     pictures: HashMap<(PathBuf, bool), Option<u32>>,
+    /// Textures by those of colours and of opacities; `None` of those without holes.
+    holes: HashMap<(Option<u32>, u32), Option<u32>>,
     fallback: Option<Use>,
     /// Names of the materials without a reflectance.
     colourless: Vec<String>,
@@ -83,6 +86,9 @@ impl Library {
     fn add(&mut self, file: &Path, from: MtlMaterial, scene: &mut Scene) {
         let is_mapped = from.reflectance_map.is_some();
         let reflectance_map = from.reflectance_map.and_then(|map| self.picture(file, &map, scene));
+        let opacity_map = from.opacity_map.and_then(|map| self.picture(file, &map, scene));
+        let cut_out =
+            opacity_map.and_then(|map| self.cut_out(&from.name, reflectance_map, map, scene));
         let emission_map = from.emission_map.and_then(|map| self.picture(file, &map, scene));
         let mut reflectance = from.reflectance;
         if reflectance.is_none() && reflectance_map.is_none() {
@@ -105,8 +111,10 @@ impl Library {
             name: from.name.clone(),
             reflectance: reflectance.unwrap_or(unsaid),
             emission: from.emission.unwrap_or(unlit),
+            cutoff: cut_out.map(|_| holes::CUTOFF),
             ..Material::default()
         };
+        let reflectance_map = cut_out.or(reflectance_map);
         let mapping = attach_pictures(scene, &mut material, reflectance_map, emission_map);
         scene.materials.push(material);
         let used = Use { material: scene.materials.len() as u32 - 1, mapping };
@@ -117,6 +125,25 @@ impl Library {
             let name = from.name;
             scene.notes.push(format!("material \"{name}\" is defined twice; the last one counts"));
         }
+    }
+
+    /// The picture of a material's colours with the holes that one of opacities has, if it has any.
+    fn cut_out(
+        &mut self,
+        material: &str,
+        colours: Option<Picture>,
+        opacities: Picture,
+        scene: &mut Scene,
+    ) -> Option<Picture> {
+        if colours.is_some_and(|colours| colours.mapping != opacities.mapping) {
+            scene.notes.push(format!(
+                "material \"{material}\": the opacity picture is laid on unlike the colour picture; it is ignored"
+            ));
+            return None;
+        }
+        let key = (colours.map(|colours| colours.texture), opacities.texture);
+        let made = self.holes.entry(key).or_insert_with(|| with_holes(scene, key.0, key.1));
+        made.map(|texture| Picture { texture, ..opacities })
     }
 
     fn picture(&mut self, library: &Path, map: &Map, scene: &mut Scene) -> Option<Picture> {

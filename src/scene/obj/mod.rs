@@ -1,5 +1,6 @@
 //! Wavefront OBJ: polygons through `tobj`, smoothing groups and materials by ourselves.
 
+mod holes;
 mod library;
 mod mtl;
 mod scan;

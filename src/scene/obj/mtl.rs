@@ -20,6 +20,8 @@ pub(super) struct MtlMaterial {
     pub(super) reflectance_map: Option<Map>,
     /// `map_Ke`.
     pub(super) emission_map: Option<Map>,
+    /// `map_d`.
+    pub(super) opacity_map: Option<Map>,
     /// True if `d` or, without it, `Tr` says that light comes through.
     pub(super) transparent: bool,
     /// True if `d` has been read.
@@ -79,6 +81,7 @@ fn set(material: &mut MtlMaterial, word: &str, rest: &str) -> Result<(), String>
             material.transparent = clear > 1.0 - OPAQUE && clear < OPAQUE;
         }
         "map_ke" => material.emission_map = Some(map(rest)?),
+        "map_d" => material.opacity_map = Some(map(rest)?),
         _ => {}
     }
     Ok(())
