@@ -40,9 +40,6 @@ const DIRECT_SHARE: f64 = 1.0 / 3.0;
 /// Light from other surfaces is held to this share: it is smooth, and costs much.
 const REFLECTED_SHARE: f64 = 1.5;
 
-/// And to this beside the outline of what hovers close over a surface, where it has an edge, too.
-const OUTLINE_SHARE: f64 = 0.5;
-
 /// Light is judged as if at least this share of the mean were there: errors in the dark count for little.
 const DARKEST: f64 = 0.05;
 
@@ -52,7 +49,7 @@ pub use lines::{Discontinuity, cut, discontinuities};
 #[derive(Clone, Debug)]
 pub struct Oracle {
     tolerance: f64,
-    /// That of elements beside the outline of what hovers over them.
+    /// That of elements beside the outline of what hovers over them: there reflected light has an edge, too.
     outline_tolerance: f64,
     min_element: f64,
     max_level: u32,
@@ -90,7 +87,7 @@ impl Oracle {
     fn new(settings: &Settings, share: f64, (extent, mesh): (f64, &Mesh)) -> Self {
         Self {
             tolerance: settings.tolerance * share,
-            outline_tolerance: settings.tolerance * share.min(OUTLINE_SHARE),
+            outline_tolerance: settings.tolerance * share.min(DIRECT_SHARE),
             min_element: settings.min_element.metres(extent),
             max_level: settings.max_level,
             plain_size: PLAIN_SIZE * extent,
