@@ -283,3 +283,16 @@ fn stages_are_what_a_limit_of_shots_leaves_and_lead_to_the_same_end() {
     assert!(unshot.is_sorted_by(|more, less| more > less), "{unshot:?}");
     assert_eq!(light(&end), light(&solve(&surfaces, &coarse())));
 }
+
+#[test]
+fn a_scene_in_coordinates_of_a_national_grid_is_lit_as_at_the_origin() {
+    let here = shipped("cornell-box.obj");
+    let mut far = here.clone();
+    let away = DVec3::new(448_262.0, 35.0, -5_411_932.0);
+    far.positions.iter_mut().for_each(|place| *place += away);
+    let [here, far] = [here, far].map(|scene| mesh_of(&scene, &coarse()));
+    let share = far.triangles.len() as f64 / here.triangles.len() as f64;
+    assert!((share - 1.0).abs() < 0.01, "{share} times as many triangles");
+    let share = mean_radiosity(&far) / mean_radiosity(&here);
+    assert!((share - 1.0).abs() < 1e-3, "{share} times as bright");
+}

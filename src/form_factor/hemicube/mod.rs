@@ -39,10 +39,6 @@ use clip::Corners;
 use raster::Raster;
 use resolution::is_by_rays;
 
-/// Patches in one plane with the eye are seen edge-on, that is, not at all; heights below this, m,
-/// are rounding.
-const HAIR: f64 = 1e-11;
-
 /// Factor on the nearness of backs: of two faces back to back in one place, the front one must win
 /// over rounding.
 const RECESS: f32 = 1.0 - 1e-5;
@@ -237,7 +233,7 @@ impl<'a> Hemicube<'a> {
             |patch, corners, range| {
                 let height = targets.height(patch, eye);
                 // The back of a double-sided polygon has a patch of its own.
-                if height.abs() < HAIR || (targets.two_sided(patch) && height < 0.0) {
+                if height.abs() < targets.hair() || (targets.two_sided(patch) && height < 0.0) {
                     return;
                 }
                 let ink = (patch as u32, if height < 0.0 { RECESS } else { 1.0 }, delta);

@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 use super::clip::Corners;
 use super::resolution::MANY;
 use crate::mesh::Patch;
-use crate::visibility::PatchHierarchy;
+use crate::visibility::{PatchHierarchy, hair};
 
 /// Patches that are turned into a hemicube's frame at once: enough to fill registers, few enough for the
 /// nearest cache.
@@ -21,6 +21,7 @@ pub struct Targets {
     blocks: Vec<Block>,
     /// For rays, where patches are many.
     hierarchy: Option<PatchHierarchy>,
+    hair: f64,
 }
 
 /// A patch.
@@ -48,6 +49,7 @@ impl Targets {
             patches: Vec::with_capacity(patches.len() + 1),
             blocks: Vec::with_capacity(patches.len().div_ceil(BLOCK)),
             hierarchy: (patches.len() > MANY).then(|| PatchHierarchy::new(patches)),
+            hair: hair(patches),
         };
         for patch in patches {
             let first = targets.corners[0].len() as u32;
@@ -75,6 +77,12 @@ impl Targets {
     /// What rays look for patches in, if these are so many that a hemicube's cells may be fewer.
     pub(super) fn hierarchy(&self) -> Option<&PatchHierarchy> {
         self.hierarchy.as_ref()
+    }
+
+    /// An eye not higher than that over the plane of a patch is in it, m.
+    #[inline(always)]
+    pub(super) fn hair(&self) -> f64 {
+        self.hair
     }
 
     /// Corners of a patch, m.
