@@ -272,3 +272,29 @@ fn surfaces_of_a_turned_scene_are_the_turned_surfaces() {
         assert_eq!(a.contacts.len(), b.contacts.len());
     }
 }
+
+#[test]
+fn walls_of_triangles_are_divided_as_walls_of_four_corners() {
+    let whole = furnished_room(&[Block {
+        base: DVec3::new(1.5, 0.0, 2.2),
+        size: DVec3::new(0.9, 1.1, 0.5),
+        turn: 0.7,
+    }]);
+    let mut halved = whole.clone();
+    halved.faces = whole
+        .faces
+        .iter()
+        .flat_map(|face| {
+            let half = |corners: [usize; 3]| {
+                let vertices = corners.map(|k| face.vertices[k]).as_slice().into();
+                radiosity::scene::Face { vertices, ..face.clone() }
+            };
+            [half([0, 1, 2]), half([2, 3, 0])]
+        })
+        .collect();
+    let [whole, halved] = [whole, halved].map(|scene| {
+        let mesh = solve(&surfaces_of(&scene), &coarse()).mesh;
+        (mesh.patches.len(), mesh.leaves().count())
+    });
+    assert_eq!(whole, halved);
+}

@@ -97,9 +97,13 @@ fn spots_at_a_ceiling_light_the_room_alike_however_near_they_are() {
 #[test]
 fn what_squares_send_at_a_ceiling_leaves_the_gap_as_it_must() {
     // By a path tracer of 2e7 to 1e8 paths; side and gap in m.
-    for (side, gap, expected) in
-        [(0.6, 0.1, 13.63), (0.6, 0.05, 7.65), (0.1, 0.05, 28.8), (0.1, 0.02, 16.32)]
-    {
+    for (side, gap, expected) in [
+        (0.6, 0.1, 13.63),
+        (0.6, 0.05, 7.65),
+        (0.6, 0.01, 1.708),
+        (0.1, 0.05, 28.8),
+        (0.1, 0.02, 16.32),
+    ] {
         let scene = with_square(0.7, side, (gap, DVec3::Y));
         hold(&scene, expected, &format!("{side} m, {gap} m from the ceiling"));
     }

@@ -74,24 +74,22 @@ impl Oracle {
     ///
     /// Direct light must be known at the corners of all patches of the mesh.
     pub fn of_direct_light(settings: &Settings, extent: f64, mesh: &Mesh) -> Self {
-        Self::new(settings, DIRECT_SHARE, (extent, mesh))
+        Self::new(settings, DIRECT_SHARE, (extent, mean_radiosity(mesh)))
     }
 
-    /// An oracle of light from other surfaces, for a scene of this extent, m.
-    ///
-    /// Direct light must be known at the corners of all patches of the mesh.
-    pub fn of_reflected_light(settings: &Settings, extent: f64, mesh: &Mesh) -> Self {
-        Self::new(settings, REFLECTED_SHARE, (extent, mesh))
+    /// An oracle of light from other surfaces, for a scene of this extent, m, and this mean radiosity, W/m².
+    pub fn of_reflected_light(settings: &Settings, extent: f64, level: f64) -> Self {
+        Self::new(settings, REFLECTED_SHARE, (extent, level))
     }
 
-    fn new(settings: &Settings, share: f64, (extent, mesh): (f64, &Mesh)) -> Self {
+    fn new(settings: &Settings, share: f64, (extent, level): (f64, f64)) -> Self {
         Self {
             tolerance: settings.tolerance * share,
             outline_tolerance: settings.tolerance * share.min(DIRECT_SHARE),
             min_element: settings.min_element.metres(extent),
             max_level: settings.max_level,
             plain_size: PLAIN_SIZE * extent,
-            level: mean_radiosity(mesh),
+            level,
         }
     }
 

@@ -5,6 +5,7 @@ use super::shade::Solved;
 use crate::colour::Rgb;
 use crate::mesh::{ElementId, Mesh, Reason, Vertex};
 use crate::refine::Oracle;
+use crate::solver::level;
 
 /// Names of what makes leaves, in the order of their colours.
 pub(crate) const REASONS: [&str; 6] =
@@ -66,7 +67,7 @@ pub(super) fn errors(solved: &Solved<'_>) -> Vec<Rgb> {
     let mesh = &solved.solution.mesh;
     let Solved { surfaces, settings, .. } = solved;
     let of_direct_light = Oracle::of_direct_light(settings, surfaces.extent, mesh);
-    let of_reflected_light = Oracle::of_reflected_light(settings, surfaces.extent, mesh);
+    let of_reflected_light = Oracle::of_reflected_light(settings, surfaces.extent, level(mesh));
     let error = |leaf: ElementId| {
         let middle = mesh.find_middle(leaf)?;
         let reflectance = mesh[mesh[leaf].patch].reflectance;

@@ -31,6 +31,9 @@ const LEVELS: [u32; 2] = [4, 9];
 /// Parts are divided until their power changes by less than this share of all that arrives.
 pub(super) const ERROR: f64 = 2e-5;
 
+/// The same where elements reflect: of a lamp that faces a ceiling closely, hardly more than that lights the room.
+const STEEP_ERROR: f64 = 2e-6;
+
 /// Direct light on each patch, W; right to within an `error` in each part that it takes to find it, W.
 pub(super) fn arrival(
     world: World<'_>,
@@ -62,7 +65,7 @@ pub(super) fn steep_means(
     leaves: &[ElementId],
 ) -> BTreeMap<ElementId, Rgb> {
     let power = |&leaf: &ElementId| strength(mean_direct(mesh, leaf)) * mesh[leaf].area;
-    let error = ERROR * leaves.iter().map(power).sum::<f64>();
+    let error = STEEP_ERROR * leaves.iter().map(power).sum::<f64>();
     let mean = |&leaf: &ElementId| {
         let element = &mesh[leaf];
         if !reflects(mesh, leaf) || doubt(mesh, leaf) * element.area <= error {

@@ -37,7 +37,7 @@ use crate::colour::Rgb;
 use crate::direct::{Lamps, PatchLight};
 use crate::error::{Error, Result};
 use crate::mesh::{ElementId, Mesh};
-use crate::refine::{Oracle, mean_radiosity, tolerated_direct};
+use crate::refine::{Oracle, tolerated_direct};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
@@ -47,6 +47,7 @@ pub use checkpoint::Checkpoint;
 pub use element_light::ElementLight;
 pub use energy::Energy;
 pub use probe::{Reading, read};
+pub(crate) use sources::level;
 pub use work::Work;
 pub use work_plane::{Evenness, WorkPlane};
 
@@ -255,12 +256,11 @@ fn gather(
     (mesh, exchange): (&mut Mesh, &mut Exchange),
     observer: &mut Observer<'_>,
 ) -> (usize, u64) {
-    let oracle = Oracle::of_reflected_light(settings, world.surfaces.extent, mesh);
     let scene = (world.surfaces, world.occluders, world.groups);
-    let mut gatherer = {
-        let sources = exchange.sources(mesh);
-        Gatherer::new(scene, settings, (mesh, sources, mean_radiosity(mesh)))
-    };
+    let sources = exchange.sources(mesh);
+    let level = sources.level(mesh);
+    let oracle = Oracle::of_reflected_light(settings, world.surfaces.extent, level);
+    let mut gatherer = Gatherer::new(scene, settings, (mesh, sources, level));
     for round in 1..=ROUNDS {
         indirect_pass::refine((settings, &oracle), &mut gatherer, mesh, observer);
         direct_pass::light_leaves(world, mesh, observer);

@@ -11,7 +11,6 @@ use super::sources::Sources;
 use crate::colour::{LUMENS_PER_WATT, Rgb, luminance};
 use crate::direct::Lamps;
 use crate::form_factor::hemicube::{Hemicube, Targets, turn};
-use crate::refine::mean_radiosity;
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
@@ -59,7 +58,9 @@ pub fn read(
 ) -> Vec<Reading> {
     let (mesh, occluders) = (&solution.mesh, Occluders::new(surfaces));
     let lamps = Lamps::new(surfaces, mesh).seen_by(settings.shadow_rays);
-    let light = (mesh, Sources::of_vertices(mesh), mean_radiosity(mesh));
+    let sources = Sources::of_vertices(mesh);
+    let level = sources.level(mesh);
+    let light = (mesh, sources, level);
     let groups = Groups::new(surfaces, settings, mesh);
     let world = (surfaces, &occluders, &groups);
     let gatherer = Gatherer::new(world, settings, light);

@@ -6,8 +6,22 @@ use smallvec::SmallVec;
 use super::ElementLight;
 use crate::colour::Rgb;
 use crate::mesh::{ElementId, Mesh, PatchId, Vertex};
-use crate::refine::strength;
+use crate::refine::{mean_radiosity, strength};
 use crate::surface::Surfaces;
+
+/// Radiosity beyond this many times the mean of the scene counts as that much in it.
+const HOT: f64 = 8.0;
+
+/// The mean is settled after so many rounds, whatever is hot.
+const ROUNDS: usize = 8;
+
+/// The mean counts as at least this share of what direct light lets expect: to look for less would take time without end.
+const LEAST: f64 = 1.0 / 32.0;
+
+/// Mean radiosity of a scene whose vertices are lit, W/m², by which errors are measured.
+pub(crate) fn level(mesh: &Mesh) -> f64 {
+    Sources::of_vertices(mesh).level(mesh)
+}
 
 /// Reflected radiosities, W/m², emission not included.
 #[derive(Clone, Debug)]
@@ -103,6 +117,22 @@ impl Sources {
             corners: mesh[leaf].corners.iter().map(|&v| plane.lift(mesh[v].position)).collect(),
             light: light.into_iter().map(adapted).collect(),
         }
+    }
+
+    /// Mean radiosity of a scene, W/m², by which errors are measured: as direct light lets expect, unless far less
+    /// of it goes round.
+    ///
+    /// Light that is shut in, as between a lamp and the ceiling that it all but touches, makes a small spot hot and the
+    /// room no brighter, and the errors that it hides are those of the room.
+    pub(super) fn level(&self, mesh: &Mesh) -> f64 {
+        let area: f64 = mesh.leaves().map(|leaf| mesh[leaf].area).sum();
+        let capped = |most: f64| {
+            let light = |leaf: ElementId| strength(self.mean(leaf)).min(most) * mesh[leaf].area;
+            mesh.leaves().map(light).sum::<f64>() / area.max(f64::MIN_POSITIVE)
+        };
+        let found = (0..ROUNDS).fold(capped(f64::INFINITY), |level, _| capped(HOT * level));
+        let expected = mean_radiosity(mesh);
+        expected.min(2.0 * found).max(LEAST * expected)
     }
 
     /// How much the light that a patch shows has changed since `before`, at most, W/m².

@@ -66,7 +66,13 @@ pub(super) fn regions(scene: &Scene, tolerance: f64) -> Vec<Region> {
             }
             next += 1;
         }
-        let rings = outline(scene, &plane, &faces);
+        let mut rings = outline(scene, &plane, &faces);
+        let (mut plane, mut look) = (plane, look);
+        if faces.len() > 1 {
+            plane = aligned(&plane, &rings);
+            look = Look::of(scene, &plane, &scene.faces[seed]);
+            rings = outline(scene, &plane, &faces);
+        }
         let normals = normals_of(&scene.faces[seed]);
         regions.push(Region { plane, faces, rings, look, normals });
     }
@@ -126,6 +132,32 @@ fn plane_of(scene: &Scene, face: &Face) -> Plane {
     // Rounding must not decide between edges of equal length.
     let first = along().find(|edge| edge.length() >= longest * (1.0 - 1e-6));
     Plane::new(origin, normal.normalize_or(DVec3::Y), first.unwrap_or(DVec3::X))
+}
+
+/// A plane with its first axis along the edge of an outline that most of the outline runs along or across: elements
+/// are to follow it, and of a wall of two triangles the longest edge is the diagonal.
+fn aligned(plane: &Plane, rings: &[Ring]) -> Plane {
+    const DEGREES: usize = 90;
+    let along = rings
+        .iter()
+        .flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| b - a));
+    let longest = |edges: &mut dyn Iterator<Item = DVec2>| {
+        // Rounding must not decide between edges of equal length.
+        let longer = |best: DVec2, edge: DVec2| {
+            if edge.length() > best.length() * (1.0 + 1e-6) { edge } else { best }
+        };
+        edges.fold(DVec2::ZERO, longer)
+    };
+    let reference = longest(&mut along.clone());
+    let bin = |edge: DVec2| {
+        let quarter = reference.angle_to(edge).to_degrees().rem_euclid(DEGREES as f64);
+        (quarter + 0.5) as usize % DEGREES
+    };
+    let mut lengths = [0.0; DEGREES];
+    along.clone().for_each(|edge| lengths[bin(edge)] += edge.length());
+    let most = (0..DEGREES).rev().max_by(|&a, &b| lengths[a].total_cmp(&lengths[b])).unwrap_or(0);
+    let first = longest(&mut along.filter(|&edge| bin(edge) == most));
+    Plane::new(plane.origin, plane.normal, plane.lift(first) - plane.origin)
 }
 
 /// True if `other` may be one region with `seed`. Facets of a curved surface stay apart: each has
