@@ -6,6 +6,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use radiosity::form_factor::{self, assemble};
+use radiosity::light::Optics;
 use radiosity::mesh::Mesh;
 use radiosity::page::{Axis, Curve, Plot, Stroke};
 use radiosity::settings::Method;
@@ -83,11 +84,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 fn office() -> radiosity::Result<System> {
     let surfaces = surfaces_of(&load(Path::new("scenes/office.obj"), &Default::default())?);
     let settings = Settings { patch_size: Length::Metres(PATCH), ..Settings::medium() };
-    let patches = Mesh::new(&surfaces, &settings).patches;
+    let mesh = Mesh::new(&surfaces, &settings);
+    let Optics { reflectance, exitance } = Optics::new(&surfaces, &mesh);
     let method = form_factor::Method::Hemicube(settings.hemicube_resolution);
     let go_on = |_| ControlFlow::Continue(());
-    let factors = assemble(&patches, &Occluders::new(&surfaces), method, go_on).factors;
-    let reflectance = patches.iter().map(|patch| patch.reflectance).collect();
-    let exitance = patches.iter().map(|patch| patch.exitance).collect();
+    let factors = assemble(&mesh.patches, &Occluders::new(&surfaces), method, go_on).factors;
     System::new(factors, reflectance, exitance)
 }

@@ -11,6 +11,11 @@ pub type Rgb = DVec3;
 /// their lux.
 pub const LUMENS_PER_WATT: f64 = 683.0;
 
+/// Mean magnitude of the channels.
+pub fn strength(colour: Rgb) -> f64 {
+    colour.abs().element_sum() / 3.0
+}
+
 /// Relative luminance of a linear colour, in the colour's unit ([Rec. 709] weights).
 ///
 /// [Rec. 709]: https://www.itu.int/rec/R-REC-BT.709

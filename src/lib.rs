@@ -71,6 +71,8 @@ pub mod surface;
 
 pub mod mesh;
 
+pub mod light;
+
 pub mod visibility;
 
 pub mod form_factor;

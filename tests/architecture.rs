@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The library's modules in flow order; those in one entry do not use each other.
-const FLOW: [&[&str]; 19] = [
+const FLOW: [&[&str]; 20] = [
     &["colour"],
     &["error"],
     &["file"],
@@ -13,6 +13,7 @@ const FLOW: [&[&str]; 19] = [
     &["scene"],
     &["surface"],
     &["mesh"],
+    &["light"],
     &["visibility"],
     &["form_factor"],
     &["direct"],

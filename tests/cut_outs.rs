@@ -244,7 +244,7 @@ fn cut_outs_are_the_same_with_any_number_of_threads() {
     let outcome = || {
         let surfaces = surfaces_of(&scene);
         let solution = solve(&surfaces, &coarse());
-        format!("{:?} {:?}", surfaces.list, solution.mesh.vertices)
+        format!("{:?} {:?} {:?}", surfaces.list, solution.mesh.vertices, solution.vertex_light)
     };
     let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     assert!(alone.install(outcome) == outcome(), "threads change the outlines");

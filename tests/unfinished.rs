@@ -5,7 +5,8 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::{assert_sane, mean_radiosity, shipped};
-use radiosity::mesh::{Direct, VertexId};
+use radiosity::light::Direct;
+use radiosity::mesh::VertexId;
 use radiosity::solver::{Phase, Progress, Stop};
 use radiosity::{Settings, Solution, Surfaces, reconstruct, solve, surfaces_of};
 
@@ -37,7 +38,7 @@ fn ended_at(surfaces: &Surfaces, (phase, done): (Phase, f64)) -> Solution {
 /// Share of the direct light that would arrive in the open at some vertices which does arrive.
 fn visible(solution: &Solution, vertices: &[VertexId]) -> f64 {
     let sum = |of: fn(Direct) -> f64| -> f64 {
-        vertices.iter().map(|&v| of(solution.mesh[v].direct.unwrap())).sum()
+        vertices.iter().map(|&v| of(solution.vertex_light.direct(v).unwrap())).sum()
     };
     sum(|direct| direct.irradiance.element_sum()) / sum(|direct| direct.unoccluded.element_sum())
 }
@@ -48,7 +49,7 @@ fn hidden(solution: &Solution) -> Vec<VertexId> {
     let corners = mesh.patches.iter().flat_map(|patch| mesh[patch.root].corners.iter().copied());
     let is_hidden =
         |direct: Direct| direct.unoccluded.element_sum() > 0.0 && direct.visible() < 0.01;
-    corners.filter(|&v| is_hidden(mesh[v].direct.unwrap())).collect()
+    corners.filter(|&v| is_hidden(solution.vertex_light.direct(v).unwrap())).collect()
 }
 
 fn what_is_ended_early_is_coarse_but_not_wrong(name: &str, tolerance: f64) {

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 use radiosity::colour::Rgb;
 use radiosity::direct::Lamps;
+use radiosity::light::Optics;
 use radiosity::mesh::{ElementId, Mesh};
 use radiosity::surface::polygon::edges;
 use radiosity::visibility::Occluders;
@@ -47,6 +48,7 @@ pub(crate) struct Truth {
 struct Gauge<'a> {
     surfaces: &'a Surfaces,
     mesh: Mesh,
+    optics: Optics,
     lamps: Lamps,
     occluders: Occluders,
 }
@@ -59,7 +61,8 @@ impl Truth {
         let uniform = Some(SPACING * surfaces.extent);
         let mesh = Mesh::new(surfaces, &Settings { uniform, ..Settings::medium() });
         let (lamps, occluders) = (Lamps::new(surfaces, &mesh), Occluders::new(surfaces));
-        let gauge = Gauge { surfaces, mesh, lamps, occluders };
+        let optics = Optics::new(surfaces, &mesh);
+        let gauge = Gauge { surfaces, mesh, optics, lamps, occluders };
         let leaves: Vec<ElementId> = gauge.mesh.leaves().collect();
         let mut points: Vec<Point> = leaves
             .par_iter()
@@ -124,7 +127,7 @@ fn leading(points: &[Point]) -> usize {
 impl Gauge<'_> {
     fn point(&self, leaf: ElementId, (place, normal): (DVec3, DVec3), reflected: Rgb) -> Point {
         let direct = self.lamps.shine(&self.occluders, place, normal);
-        let reflectance = self.mesh[self.mesh[leaf].patch].reflectance;
+        let reflectance = self.optics.of(&self.mesh[leaf]);
         let slope = self.slope(leaf, (place, normal));
         Point {
             place,

@@ -4,6 +4,7 @@ use std::fmt::{self, Display, Formatter};
 use std::path::PathBuf;
 
 use radiosity::colour::{LUMENS_PER_WATT, Rgb, luminance};
+use radiosity::light::Optics;
 use radiosity::mesh::Mesh;
 use radiosity::scene::{Light, Material, NamedLight};
 use radiosity::{Scene, Surfaces};
@@ -108,10 +109,10 @@ impl MaterialFacts {
 /// By material: the area of its surfaces, m², and the power that they emit, W.
 fn shown(materials: usize, surfaces: &Surfaces, mesh: &Mesh) -> Vec<(f64, Rgb)> {
     let mut shown = vec![(0.0, Rgb::ZERO); materials];
-    for patch in &mesh.patches {
+    for (patch, exitance) in mesh.patches.iter().zip(Optics::new(surfaces, mesh).exitance) {
         let (area, power) = &mut shown[surfaces.list[patch.surface as usize].material as usize];
         *area += patch.area;
-        *power += patch.exitance * patch.area;
+        *power += exitance * patch.area;
     }
     shown
 }

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::Args;
 use radiosity::colour::Rgb;
 use radiosity::export::{self, Stamp};
+use radiosity::light::Direct;
 use radiosity::lightmap::Atlas;
-use radiosity::mesh::Direct;
 use radiosity::reconstruct::mesh_pictures;
 use radiosity::render::{self, Solved, Subject};
 use radiosity::scene::Camera;
@@ -365,7 +365,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// Whether any light arrives at all.
 fn refuse_darkness(solution: &Solution) -> Result<(), Error> {
-    let direct = || solution.mesh.vertices.iter().filter_map(|vertex| vertex.direct);
+    let direct = || solution.vertex_light.all_direct();
     let most = |light: &dyn Fn(Direct) -> Rgb| {
         direct().map(|direct| light(direct).max_element()).fold(0.0, f64::max)
     };

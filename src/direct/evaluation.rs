@@ -7,7 +7,7 @@ use super::candidates::Candidate;
 use super::pool::Pool;
 use super::{Lamp, Lamps, Seen, View, punctual};
 use crate::colour::Rgb;
-use crate::mesh::Direct;
+use crate::light::Direct;
 use crate::scene::Light;
 use crate::visibility::{Blockers, CROWDED, Occluders};
 

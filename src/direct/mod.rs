@@ -22,7 +22,8 @@ mod view;
 use glam::DVec3;
 
 use crate::form_factor::contour::point_to_polygon_above;
-use crate::mesh::{Direct, Mesh};
+use crate::light::Direct;
+use crate::mesh::Mesh;
 use crate::scene::{Light, NamedLight};
 use crate::surface::Surfaces;
 use crate::surface::cut::{Cuts, convex_pieces};

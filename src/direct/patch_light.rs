@@ -11,7 +11,8 @@ use super::evaluation::{Evaluation, POOLED, strength};
 use super::lines::{Line, Shining};
 use super::{Lamp, Lamps, punctual};
 use crate::colour::Rgb;
-use crate::mesh::{Direct, Mesh, PatchId};
+use crate::light::Direct;
+use crate::mesh::{Mesh, PatchId};
 use crate::scene::boxes;
 use crate::visibility::{Blockers, Body, CROWDED, Facet, Occluders};
 

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::sky::solid_angle;
 use crate::colour::{LUMENS_PER_WATT, Rgb};
-use crate::mesh::Direct;
+use crate::light::Direct;
 use crate::scene::Light;
 use crate::visibility::Occluders;
 

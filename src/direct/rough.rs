@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::glimpse::place_on;
 use super::{Lamp, Lamps, punctual};
 use crate::colour::Rgb;
-use crate::mesh::Direct;
+use crate::light::Direct;
 use crate::visibility::Occluders;
 
 /// Rays from a place, at least: where there are fewer lamps, several go to each.

@@ -6,7 +6,7 @@ use super::RadianceProfile;
 use super::sampling::Sampling;
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
-use crate::mesh::Direct;
+use crate::light::Direct;
 use crate::visibility::{Blockers, Facet, Occluders, Polygon};
 
 /// Polygons of a smaller area than this share of the squared distance are taken for points.

@@ -1,20 +1,16 @@
 //! Patches of a scene's surfaces, and the vertices that their elements share.
 
-use std::collections::BTreeMap;
-
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
 use super::landmarks::Landmarks;
 use super::{Corners, Element, ElementId, Mesh, Patch, PatchId, Reason, Vertex, VertexId};
-use crate::colour::Rgb;
 use crate::scene::boxes::{self, Tree, are_close};
 use crate::settings::Settings;
 use crate::surface::cut::{Cuts, convex_pieces};
 use crate::surface::polygon::{self, Convex, Segment};
 use crate::surface::{Cells, Contact, Plane, Surface, Surfaces, cell_key, cells_around};
-use crate::surface::{mean_reflectance, mean_texture};
 
 /// How far inside a border light is evaluated, in tolerances: well beyond what counts as touching it.
 const INSET: f64 = 50.0;
@@ -63,9 +59,6 @@ struct Sheet {
 /// What a patch is made from.
 struct Piece {
     outline: Convex,
-    /// Mean diffuse reflectance, and mean exitance, W/m².
-    reflectance: Rgb,
-    exitance: Rgb,
     /// Of the sheet, those near it.
     contacts: SmallVec<[u32; 4]>,
 }
@@ -79,7 +72,6 @@ impl Mesh {
             patches: Vec::new(),
             elements: Vec::new(),
             vertices: Vec::new(),
-            steep: BTreeMap::new(),
             index: VertexIndex::new(surfaces, settings),
             limit: settings.max_elements.unwrap_or(usize::MAX),
             is_full: false,
@@ -100,7 +92,7 @@ impl Mesh {
 
     /// Adds a patch with its element; none where the corners are so close together that they enclose nothing.
     fn add_patch(&mut self, surfaces: &Surfaces, number: u32, piece: Piece) {
-        let Piece { outline, reflectance, exitance, contacts } = piece;
+        let Piece { outline, contacts } = piece;
         let surface = &surfaces.list[number as usize];
         let outline = self.settled(number, &outline);
         if outline.len() < 3 || polygon::area(&outline) <= 0.0 {
@@ -115,8 +107,6 @@ impl Mesh {
             corners: outline.iter().map(|&p| surface.plane.lift(p)).collect(),
             normal: surface.plane.normal,
             area,
-            reflectance,
-            exitance,
             two_sided: surface.two_sided,
             contacts,
         });
@@ -150,8 +140,7 @@ impl Mesh {
         let new = VertexId(self.vertices.len() as u32);
         self.index.cells.add(self.index.key(surface, position), new.0);
         let site = self.site(patch, position);
-        let (direct, indirect) = (None, None);
-        self.vertices.push(Vertex { surface, patch, position, site, on_contact, direct, indirect });
+        self.vertices.push(Vertex { surface, patch, position, site, on_contact });
         new
     }
 
@@ -218,15 +207,24 @@ impl Mesh {
         vertex: VertexId,
         inside: DVec2,
     ) -> VertexId {
-        let plane = &self.index.sheets[self[patch].surface as usize].plane;
+        let plane = self.plane(patch);
         let mut copy = self[vertex].clone();
         let inward = (inside - copy.position).normalize_or_zero();
         let reach = (2.0 * INSET * self.index.tolerance).min(0.2 * inside.distance(copy.position));
         copy.patch = patch;
         copy.site = plane.lift(copy.position + inward * reach);
-        (copy.direct, copy.indirect) = (None, None);
         self.vertices.push(copy);
         VertexId(self.vertices.len() as u32 - 1)
+    }
+
+    /// The plane of a patch.
+    pub fn plane(&self, patch: PatchId) -> &Plane {
+        &self.index.sheets[self[patch].surface as usize].plane
+    }
+
+    /// What is nearer than this, m, counts as one place on a surface.
+    pub fn tolerance(&self) -> f64 {
+        self.index.tolerance
     }
 
     fn on_contact(&self, patch: PatchId, position: DVec2) -> bool {
@@ -244,8 +242,7 @@ impl Mesh {
     /// Where to evaluate light for a place on a patch: moved inwards until it is a hair away from
     /// every border, so that what stands along a border is seen from the patch's side.
     pub fn site(&self, patch: PatchId, position: DVec2) -> DVec3 {
-        let plane = &self.index.sheets[self[patch].surface as usize].plane;
-        self.inside(patch, plane.lift(position), INSET * self.index.tolerance)
+        self.inside(patch, self.plane(patch).lift(position), INSET * self.index.tolerance)
     }
 
     /// Where to gather light from other surfaces for a vertex, m: its site; but under the edge of what hovers close over it,
@@ -346,8 +343,6 @@ impl VertexIndex {
         let flat = |line: &Contact| boxes::around(line.segment.map(|p| p.extend(0.0)));
         let tree = Tree::new(contacts.iter().map(flat).collect());
         let piece = |outline: Convex| Piece {
-            reflectance: mean_reflectance(surfaces, surface, &outline),
-            exitance: surface.exitance * mean_texture(surfaces, surface, &outline)[1],
             contacts: touching((contacts, &tree), &outline, *apart),
             outline,
         };

@@ -7,14 +7,9 @@ mod split;
 mod statistics;
 mod validate;
 
-use std::collections::BTreeMap;
-use std::ops::Add;
-
 use glam::{DVec2, DVec3};
-use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-use crate::colour::Rgb;
 use crate::surface::Plane;
 use crate::surface::polygon::{self, Convex};
 
@@ -38,10 +33,8 @@ pub struct Mesh {
     pub patches: Vec<Patch>,
     /// The nodes of all trees; parents come before their children.
     pub elements: Vec<Element>,
-    /// The corners of elements, and the places where light was evaluated to judge them.
+    /// The corners of elements, and the places where light is evaluated to judge them.
     pub vertices: Vec<Vertex>,
-    /// Mean irradiance straight from emitters, W/m², of leaves on which it is too steep for their vertices to tell.
-    pub steep: BTreeMap<ElementId, Rgb>,
     index: VertexIndex,
     /// Most elements, see [`Settings::max_elements`](crate::settings::Settings::max_elements).
     limit: usize,
@@ -61,10 +54,6 @@ pub struct Patch {
     pub normal: DVec3,
     /// Area, m².
     pub area: f64,
-    /// Diffuse reflectance, the mean of the texture included.
-    pub reflectance: Rgb,
-    /// Exitance, W/m², the mean of the texture included.
-    pub exitance: Rgb,
     /// True if a patch on the other side of a double-sided polygon covers the same place.
     pub two_sided: bool,
     /// Contact lines and inner corners of its surface that touch it.
@@ -103,7 +92,7 @@ pub enum Reason {
     Discontinuity,
 }
 
-/// A place on a surface where light is known.
+/// A place on a surface at which light may be known.
 #[derive(Clone, Debug)]
 pub struct Vertex {
     /// Index into [`crate::surface::Surfaces::list`].
@@ -117,51 +106,12 @@ pub struct Vertex {
     /// True if a contact line runs through it, or it is at an inner corner of its surface's outline: its
     /// light holds on this patch's side only.
     pub on_contact: bool,
-    /// Light straight from emitters, once evaluated.
-    pub direct: Option<Direct>,
-    /// Irradiance by light reflected from other surfaces, W/m², once evaluated.
-    pub indirect: Option<Rgb>,
-}
-
-/// Light straight from emitters that arrives at a point.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Direct {
-    /// Irradiance, W/m².
-    pub irradiance: Rgb,
-    /// What the irradiance would be if nothing stood between, W/m².
-    pub unoccluded: Rgb,
-}
-
-impl Direct {
-    /// Share of the unoccluded irradiance that arrives, 0..=1; 1 where none could.
-    pub fn visible(&self) -> f64 {
-        let all = self.unoccluded.element_sum();
-        if all > 0.0 { self.irradiance.element_sum() / all } else { 1.0 }
-    }
-}
-
-impl Add for Direct {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            irradiance: self.irradiance + other.irradiance,
-            unoccluded: self.unoccluded + other.unoccluded,
-        }
-    }
 }
 
 impl Element {
     /// True if it has not been divided.
     pub fn is_leaf(&self) -> bool {
         self.children.is_empty()
-    }
-}
-
-impl Vertex {
-    /// Irradiance by all light known so far, W/m².
-    pub fn irradiance(&self) -> Rgb {
-        self.direct.map_or(Rgb::ZERO, |d| d.irradiance) + self.indirect.unwrap_or(Rgb::ZERO)
     }
 }
 

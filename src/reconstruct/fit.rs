@@ -10,7 +10,7 @@ use glam::DVec2;
 use nalgebra::{Matrix6, Vector6};
 
 use crate::colour::Rgb;
-use crate::mesh::{ElementId, Mesh, Middle, Vertex};
+use crate::mesh::{ElementId, Mesh, Middle, VertexId};
 
 /// Second derivatives of irradiance along the axes of a surface's plane: xx, xy, yy, W/m⁴.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +45,7 @@ impl Known {
     pub(super) fn new(
         mesh: &Mesh,
         leaf: ElementId,
-        light: impl Fn(&Vertex) -> Option<Rgb>,
+        light: impl Fn(VertexId) -> Option<Rgb>,
     ) -> Option<Self> {
         let Middle { edges, centre } = mesh.find_middle(leaf)?;
         let (origin, size) = (mesh[centre].position, mesh[leaf].area.sqrt());
@@ -53,7 +53,7 @@ impl Known {
         let mut sums = [Vector6::zeros(); 3];
         let mut range = [Rgb::INFINITY, Rgb::NEG_INFINITY];
         for &vertex in mesh[leaf].corners.iter().chain(&edges).chain([&centre]) {
-            let light = light(&mesh[vertex])?;
+            let light = light(vertex)?;
             let DVec2 { x, y } = (mesh[vertex].position - origin) / size;
             let row = Vector6::new(x * x / 2.0, x * y, y * y / 2.0, x, y, 1.0);
             moments += row * row.transpose();

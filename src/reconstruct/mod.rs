@@ -73,7 +73,12 @@ fn reconstruct_for(lamps: Lamps, surfaces: &Surfaces, solution: &Solution) -> Tr
     let mut sheets: Vec<Sheet> = (0..leaves.len())
         .into_par_iter()
         .map(|surface| {
-            Sheet::new((surfaces, mesh), &places, surface, (&leaves[surface], &outlines[surface]))
+            Sheet::new(
+                (surfaces, solution),
+                &places,
+                surface,
+                (&leaves[surface], &outlines[surface]),
+            )
         })
         .collect();
     smooth::average_across_smooth_edges(&mut sheets);

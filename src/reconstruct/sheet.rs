@@ -10,7 +10,9 @@ use super::stitch::Places;
 use super::triangulate::{Tile, triangulate};
 use super::trimesh::Irradiance;
 use crate::colour::Rgb;
-use crate::mesh::{Element, ElementId, Mesh, Vertex, VertexId};
+use crate::light::VertexLight;
+use crate::mesh::{Element, ElementId, Mesh, VertexId};
+use crate::solver::Solution;
 use crate::surface::{Surface, Surfaces, mean_texture};
 
 /// A triangulated surface.
@@ -70,6 +72,7 @@ struct Look {
 /// Collects the corners of a sheet.
 struct Builder<'a> {
     mesh: &'a Mesh,
+    light: &'a VertexLight,
     surface: &'a Surface,
     places: &'a Places,
     numbers: HashMap<(u32, Source), u32>,
@@ -81,14 +84,16 @@ struct Builder<'a> {
 impl Sheet {
     /// Triangulates the `leaves` of a surface, outlined by places at their corners.
     pub(super) fn new(
-        (surfaces, mesh): (&Surfaces, &Mesh),
+        (surfaces, solution): (&Surfaces, &Solution),
         places: &Places,
         surface: usize,
         (leaves, outlines): (&[ElementId], &[Vec<u32>]),
     ) -> Self {
         let surface = &surfaces.list[surface];
+        let mesh = &solution.mesh;
         let mut builder = Builder {
             mesh,
+            light: &solution.vertex_light,
             surface,
             places,
             numbers: HashMap::new(),
@@ -138,7 +143,7 @@ impl Builder<'_> {
         let corner = |&Stop { place, edge, hangs }: &Stop| {
             let ends = (leaf.corners[edge], leaf.corners[next(edge)]);
             if !hangs {
-                let light = arriving(&self.mesh[ends.0]);
+                let light = arriving(self.light, ends.0);
                 return self.corner(Source::Vertex(ends.0), place, light, look);
             }
             self.hanging.push(place);
@@ -160,12 +165,13 @@ impl Builder<'_> {
     ) -> (Source, Irradiance) {
         let at = |place| self.places.at(place);
         let known = self.mesh.find_vertex(leaf.patch, self.surface.plane.flatten(at(place)));
-        let lit = |v: &VertexId| self.mesh[*v].direct.is_some() && self.mesh[*v].indirect.is_some();
+        let lit =
+            |v: &VertexId| self.light.direct(*v).is_some() && self.light.indirect(*v).is_some();
         if let Some(vertex) = known.filter(lit) {
-            return (Source::Vertex(vertex), arriving(&self.mesh[vertex]));
+            return (Source::Vertex(vertex), arriving(self.light, vertex));
         }
         let share = at(from).distance(at(place)) / at(from).distance(at(to));
-        let [a_light, b_light] = [a, b].map(|v| arriving(&self.mesh[v]));
+        let [a_light, b_light] = [a, b].map(|v| arriving(self.light, v));
         let light = a_light.lerp(b_light, share);
         (Source::Between(a.min(b), a.max(b)), light)
     }
@@ -193,8 +199,9 @@ impl Builder<'_> {
 
     /// Moves light at the corners so that triangles hold what leaves do.
     fn fit(&mut self, leaves: &[ElementId], tiles: (&[Tile], &[[u32; 3]])) {
-        let direct = self.fits(leaves, tiles, |v| v.direct.map(|direct| direct.irradiance));
-        let indirect = self.fits(leaves, tiles, |v| v.indirect);
+        let direct =
+            self.fits(leaves, tiles, |v| self.light.direct(v).map(|direct| direct.irradiance));
+        let indirect = self.fits(leaves, tiles, |v| self.light.indirect(v));
         for (corner, (direct, indirect)) in
             self.corners.iter_mut().zip(direct.iter().zip(&indirect))
         {
@@ -210,7 +217,7 @@ impl Builder<'_> {
         &self,
         leaves: &[ElementId],
         (tiles, triangles): (&[Tile], &[[u32; 3]]),
-        light: impl Fn(&Vertex) -> Option<Rgb>,
+        light: impl Fn(VertexId) -> Option<Rgb>,
     ) -> Vec<Fit> {
         let known: Vec<Option<Known>> =
             leaves.iter().map(|&leaf| Known::new(self.mesh, leaf, &light)).collect();
@@ -254,9 +261,10 @@ fn without_spikes(mut stops: Vec<Stop>) -> Vec<Stop> {
 }
 
 /// What is known to arrive at a vertex; nothing where no light was evaluated.
-fn arriving(vertex: &Vertex) -> Irradiance {
-    let direct = vertex.direct.unwrap_or_default().irradiance;
-    Irradiance { direct, indirect: vertex.indirect.unwrap_or(Rgb::ZERO), direct_on_facet: direct }
+fn arriving(light: &VertexLight, vertex: VertexId) -> Irradiance {
+    let direct = light.direct_irradiance(vertex);
+    let indirect = light.indirect(vertex).unwrap_or(Rgb::ZERO);
+    Irradiance { direct, indirect, direct_on_facet: direct }
 }
 
 impl Look {

@@ -4,10 +4,11 @@ use glam::DVec2;
 use smallvec::{SmallVec, smallvec};
 
 use super::events::{Event, joined};
-use super::{Oracle, strength};
+use super::oracle::Oracle;
+use crate::colour::strength;
 use crate::direct::{Line, PatchLight};
-use crate::mesh::{Crossing, ElementId, Mesh, Patch, PatchId, Split};
-use crate::surface::Surfaces;
+use crate::light::Optics;
+use crate::mesh::{Crossing, Mesh, Patch, PatchId, Split};
 use crate::surface::polygon::{self, Convex, Segment};
 
 /// How far from a line derivatives are taken, as a share of the patch's size.
@@ -53,43 +54,55 @@ struct Chord {
     least_part: f64,
 }
 
-/// The discontinuity lines of a patch, as far as they carry more than the oracle allows, by direct light; those found
-/// by then, once there has been `enough`.
-pub fn discontinuities(
-    (surfaces, mesh): (&Surfaces, &Mesh),
-    patch: PatchId,
-    (light, oracle): (&PatchLight, &Oracle),
-    enough: impl Fn() -> bool,
-) -> Vec<Discontinuity> {
-    let Patch { surface, reflectance, corners, area, root, .. } = &mesh[patch];
-    if reflectance.max_element() <= 0.0 {
-        return Vec::new();
-    }
-    let plane = &surfaces.list[*surface as usize].plane;
-    let outline: Convex = corners.iter().map(|&p| plane.flatten(p)).collect();
-    let borders = polygon::borders(&outline);
-    let allowed = oracle.allowed_in_the_dark(mesh, *root);
-    let lines = light.lines(mesh, patch, allowed / strength(*reflectance));
-    let inside = lines.into_iter().filter_map(|Line { ends, lamp, bound }| {
-        let segment = ends.map(|p| plane.flatten(p));
-        let segment = polygon::clip(segment, &borders, surfaces.tolerance)?;
-        let is_long = segment[0].distance(segment[1]) >= 2.0 * oracle.min_element;
-        is_long.then(|| Event { segment, lamps: smallvec![lamp], bound })
-    });
-    let mut events = joined(inside, area.sqrt(), surfaces.tolerance);
-    strongest(&mut events);
-    let step = STEP * area.sqrt();
-    let weighed = |event: Event| {
-        // All other light is smooth there, or has a line of its own.
-        let by = |place: DVec2| {
-            let chosen = |lamp| event.lamps.contains(&lamp);
-            Some(strength(*reflectance * light.exactly(patch, plane.lift(place), chosen)?))
+/// Looks for discontinuity lines of direct light.
+#[derive(Clone, Copy, Debug)]
+pub struct LineSearch<'a> {
+    /// The mesh whose patches are looked at.
+    pub mesh: &'a Mesh,
+    /// How they reflect.
+    pub optics: &'a Optics,
+    /// The lamps, as they are seen from them.
+    pub light: &'a PatchLight,
+    /// What says how much matters.
+    pub oracle: &'a Oracle,
+}
+
+impl LineSearch<'_> {
+    /// The lines of a patch, as far as they carry more than the oracle allows; those found by then, once there has been
+    /// `enough`.
+    pub fn on(&self, patch: PatchId, enough: impl Fn() -> bool) -> Vec<Discontinuity> {
+        let Self { mesh, optics, light, oracle } = *self;
+        let (Patch { corners, area, root, .. }, reflectance) =
+            (&mesh[patch], optics.reflectance[patch.index()]);
+        if reflectance.max_element() <= 0.0 {
+            return Vec::new();
+        }
+        let (plane, tolerance) = (mesh.plane(patch), mesh.tolerance());
+        let outline: Convex = corners.iter().map(|&p| plane.flatten(p)).collect();
+        let borders = polygon::borders(&outline);
+        let allowed = oracle.allowed_in_the_dark(mesh, *root);
+        let lines = light.lines(mesh, patch, allowed / strength(reflectance));
+        let inside = lines.into_iter().filter_map(|Line { ends, lamp, bound }| {
+            let segment = ends.map(|p| plane.flatten(p));
+            let segment = polygon::clip(segment, &borders, tolerance)?;
+            let is_long = segment[0].distance(segment[1]) >= 2.0 * oracle.min_element();
+            is_long.then(|| Event { segment, lamps: smallvec![lamp], bound })
+        });
+        let mut events = joined(inside, area.sqrt(), tolerance);
+        strongest(&mut events);
+        let step = STEP * area.sqrt();
+        let weighed = |event: Event| {
+            // All other light is smooth there, or has a line of its own.
+            let by = |place: DVec2| {
+                let chosen = |lamp| event.lamps.contains(&lamp);
+                Some(strength(reflectance * light.exactly(patch, plane.lift(place), chosen)?))
+            };
+            weigh(event.segment, &borders, step, by)
         };
-        weigh(event.segment, &borders, step, by)
-    };
-    let matters = |line: &Discontinuity| line.error(area.sqrt()) > allowed;
-    let going_on = events.into_iter().take_while(|_| !enough());
-    going_on.filter_map(weighed).filter(matters).collect()
+        let matters = |line: &Discontinuity| line.error(area.sqrt()) > allowed;
+        let going_on = events.into_iter().take_while(|_| !enough());
+        going_on.filter_map(weighed).filter(matters).collect()
+    }
 }
 
 /// Leaves those events that may carry most, in their order.
@@ -131,18 +144,17 @@ fn weigh(
     })
 }
 
-/// The cut of an element along the line that carries most, if that is more than the oracle allows.
+/// The cut of an element with this outline along the line that carries most, if that is more than is `allowed`, W/m².
 pub fn cut(
-    (mesh, element): (&Mesh, ElementId),
+    outline: &Convex,
     lines: &[Discontinuity],
-    oracle: &Oracle,
+    allowed: f64,
     tolerance: f64,
 ) -> Option<Split> {
-    let outline = mesh.outline(element);
-    let (borders, area) = (polygon::borders(&outline), polygon::area(&outline));
+    let (borders, area) = (polygon::borders(outline), polygon::area(outline));
     let carried = |line: &Discontinuity| {
         let [from, to] = polygon::clip(line.segment, &borders, tolerance)?;
-        let chord = Chord::new(&outline, &polygon::Line::through(line.segment), tolerance)?;
+        let chord = Chord::new(outline, &polygon::Line::through(line.segment), tolerance)?;
         let share = from.distance(to) / chord.length;
         if share < LEAST_SHARE || chord.least_part < LEAST_PART {
             return None;
@@ -150,8 +162,7 @@ pub fn cut(
         Some((line.error(area / chord.length) * share, chord.ends))
     };
     let most = lines.iter().filter_map(carried).max_by(|(a, _), (b, _)| a.total_cmp(b));
-    most.filter(|(error, _)| *error > oracle.allowed_at(mesh, element))
-        .map(|(_, ends)| Split::Along(ends))
+    most.filter(|(error, _)| *error > allowed).map(|(_, ends)| Split::Along(ends))
 }
 
 impl Discontinuity {

@@ -3,9 +3,9 @@
 use super::colours::{self, Swatch};
 use super::shade::Solved;
 use crate::colour::Rgb;
-use crate::mesh::{ElementId, Mesh, Reason, Vertex};
-use crate::refine::Oracle;
-use crate::solver::level;
+use crate::mesh::{ElementId, Mesh, Reason, VertexId};
+use crate::refine::{Oracle, Sample};
+use crate::solver::{Solution, level};
 
 /// Names of what makes leaves, in the order of their colours.
 pub(crate) const REASONS: [&str; 6] =
@@ -64,21 +64,24 @@ fn coloured(
 /// Errors of interpolation in the middle of leaves, by element, as shares of what the settings
 /// allow: the larger of that of direct light and, where it was gathered, of indirect light.
 pub(super) fn errors(solved: &Solved<'_>) -> Vec<Rgb> {
-    let mesh = &solved.solution.mesh;
+    let Solution { mesh, optics, vertex_light: light, .. } = solved.solution;
     let Solved { surfaces, settings, .. } = solved;
-    let of_direct_light = Oracle::of_direct_light(settings, surfaces.extent, mesh);
-    let of_reflected_light = Oracle::of_reflected_light(settings, surfaces.extent, level(mesh));
+    let of_direct_light = Oracle::of_direct_light(settings, surfaces.extent, mesh, optics, light);
+    let of_reflected_light =
+        Oracle::of_reflected_light(settings, surfaces.extent, level(mesh, optics, light));
     let error = |leaf: ElementId| {
         let middle = mesh.find_middle(leaf)?;
-        let reflectance = mesh[mesh[leaf].patch].reflectance;
-        let direct = |v: &Vertex| reflectance * v.direct.unwrap_or_default().irradiance;
-        let of_direct = of_direct_light.excess((mesh, leaf), &middle, direct);
+        let reflectance = optics.of(&mesh[leaf]);
+        let excess = |oracle: &Oracle, shown: &dyn Fn(VertexId) -> Rgb| {
+            oracle.excess(&Sample::new(mesh, leaf, shown), &middle, shown)
+        };
+        let of_direct = excess(&of_direct_light, &|v| reflectance * light.direct_irradiance(v));
         let mut places = middle.edges.iter().chain([&middle.centre]);
-        if places.any(|&v| mesh[v].indirect.is_none()) {
+        if places.any(|&v| light.indirect(v).is_none()) {
             return Some(of_direct);
         }
-        let indirect = |v: &Vertex| reflectance * v.indirect.unwrap_or(Rgb::ZERO);
-        Some(of_direct.max(of_reflected_light.excess((mesh, leaf), &middle, indirect)))
+        let indirect = |v| reflectance * light.indirect(v).unwrap_or(Rgb::ZERO);
+        Some(of_direct.max(excess(&of_reflected_light, &indirect)))
     };
     let mut errors = vec![Rgb::ZERO; mesh.elements.len()];
     for leaf in mesh.leaves() {

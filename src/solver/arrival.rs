@@ -9,14 +9,12 @@ use glam::DVec3;
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
-use super::ElementLight;
-use super::direct_pass::{World, reflects};
-use super::element_light::{mean, mean_direct};
+use super::context::Context;
 use super::sources::quarters;
-use crate::colour::Rgb;
+use crate::colour::{Rgb, strength};
 use crate::direct::Outlook;
+use crate::light::{ElementLight, VertexLight, mean};
 use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
-use crate::refine::strength;
 use crate::scene::area_vector;
 
 /// A patch with a lamp nearer than this many of its sizes is lit unevenly.
@@ -36,55 +34,60 @@ const STEEP_ERROR: f64 = 2e-6;
 
 /// Direct light on each patch, W; right to within an `error` in each part that it takes to find it, W.
 pub(super) fn arrival(
-    world: World<'_>,
+    context: Context<'_>,
     mesh: &Mesh,
-    (light, error): (&ElementLight, f64),
+    vertices: &VertexLight,
+    light: &ElementLight,
+    error: f64,
 ) -> Vec<Rgb> {
     let numbers: Vec<PatchId> = (0..mesh.patches.len() as u32).map(PatchId).collect();
     let on = |&patch: &PatchId| {
         let whole = &mesh[patch];
         let known = light.direct[whole.root.index()] * whole.area;
-        let outlook = world.light.on(patch);
+        let outlook = context.light.on(patch);
         let is_even = || {
-            let matters = strength(known) > error && is_uneven(mesh, patch);
+            let matters = strength(known) > error && is_uneven(mesh, vertices, patch);
             !matters && (error.is_infinite() || !outlook.is_near(mesh, NEAR * whole.area.sqrt()))
         };
-        if reflects(mesh, whole.root) || world.groups.holds(patch) || is_even() {
+        if context.optics.reflects(patch) || context.groups.holds(patch) || is_even() {
             return known;
         }
         let part = Part { corners: whole.corners.iter().copied().collect(), outlook: &outlook };
-        part.integral((part.power(), error), 0)
+        part.integral(part.power(), error, 0)
     };
     numbers.par_iter().map(on).collect()
 }
 
 /// Mean direct irradiance, W/m², of those of the leaves on which it is so steep that vertices misjudge it.
 pub(super) fn steep_means(
-    world: World<'_>,
+    context: Context<'_>,
     mesh: &Mesh,
+    vertices: &VertexLight,
     leaves: &[ElementId],
 ) -> BTreeMap<ElementId, Rgb> {
-    let power = |&leaf: &ElementId| strength(mean_direct(mesh, leaf)) * mesh[leaf].area;
+    let power = |&leaf: &ElementId| strength(vertices.mean_direct(mesh, leaf)) * mesh[leaf].area;
     let error = STEEP_ERROR * leaves.iter().map(power).sum::<f64>();
     let mean = |&leaf: &ElementId| {
         let element = &mesh[leaf];
-        if !reflects(mesh, leaf) || doubt(mesh, leaf) * element.area <= error {
+        if !context.optics.reflects(element.patch)
+            || doubt(mesh, vertices, leaf) * element.area <= error
+        {
             return None;
         }
-        let plane = &world.surfaces.list[mesh.surface_of(leaf)].plane;
+        let plane = mesh.plane(element.patch);
         let corners = element.corners.iter().map(|&v| plane.lift(mesh[v].position)).collect();
-        let outlook = world.light.on(element.patch);
+        let outlook = context.light.on(element.patch);
         let part = Part { corners, outlook: &outlook };
-        Some((leaf, part.integral((part.power(), error), 0) / element.area))
+        Some((leaf, part.integral(part.power(), error, 0) / element.area))
     };
     let found: Vec<Option<(ElementId, Rgb)>> = leaves.par_iter().map(mean).collect();
     found.into_iter().flatten().collect()
 }
 
 /// By how much the mean over a leaf by Simpson's rule differs from that by trapezia, W/m².
-fn doubt(mesh: &Mesh, leaf: ElementId) -> f64 {
+fn doubt(mesh: &Mesh, light: &VertexLight, leaf: ElementId) -> f64 {
     let Some(middle) = mesh.find_middle(leaf) else { return 0.0 };
-    let at = |v: VertexId| mesh[v].direct.unwrap_or_default().irradiance;
+    let at = |v: VertexId| light.direct_irradiance(v);
     let level = |of: &[VertexId]| of.iter().map(|&v| at(v)).sum::<Rgb>() / of.len() as f64;
     let [corners, edges] = [&mesh[leaf].corners[..], &middle.edges[..]].map(level);
     let trapezia = if mesh[leaf].corners.len() == 4 {
@@ -96,11 +99,11 @@ fn doubt(mesh: &Mesh, leaf: ElementId) -> f64 {
 }
 
 /// True if the light that is known on a patch varies.
-fn is_uneven(mesh: &Mesh, patch: PatchId) -> bool {
+fn is_uneven(mesh: &Mesh, light: &VertexLight, patch: PatchId) -> bool {
     let root = mesh[patch].root;
     let middle = mesh.find_middle(root);
     let middle = middle.iter().flat_map(|middle| middle.edges.iter().chain([&middle.centre]));
-    let lit = mesh[root].corners.iter().chain(middle).filter_map(|&v| mesh[v].direct);
+    let lit = mesh[root].corners.iter().chain(middle).filter_map(|&v| light.direct(v));
     let strengths: SmallVec<[f64; 16]> = lit.map(|direct| strength(direct.irradiance)).collect();
     let most = strengths.iter().copied().fold(0.0, f64::max);
     strengths.iter().any(|&here| here < (1.0 - UNEVEN) * most)
@@ -128,7 +131,7 @@ impl Part<'_> {
     }
 
     /// What arrives on it, W, if it seems to be `power`; right to about the `error` given.
-    fn integral(&self, (power, error): (Rgb, f64), level: u32) -> Rgb {
+    fn integral(&self, power: Rgb, error: f64, level: u32) -> Rgb {
         let parts: SmallVec<[Self; 4]> = self.parts().collect();
         let powers: SmallVec<[Rgb; 4]> = parts.iter().map(Self::power).collect();
         let sum: Rgb = powers.iter().sum();
@@ -137,6 +140,6 @@ impl Part<'_> {
             return sum;
         }
         let each = parts.iter().zip(powers);
-        each.map(|(part, power)| part.integral((power, error), level + 1)).sum()
+        each.map(|(part, power)| part.integral(power, error, level + 1)).sum()
     }
 }

@@ -6,29 +6,32 @@
 
 use std::ops::ControlFlow;
 
-use super::direct_pass::{self, World};
+use super::checkpoint::Checkpoint;
+use super::context::Context;
+use super::direct_pass;
+use super::energy::Energy;
+use super::exchange::Exchange;
 use super::groups::Groups;
 use super::interpolate::{REFLECTED, interpolate};
-use super::{
-    Checkpoint, DARK, ElementLight, Energy, Exchange, Observer, Progress, Solution, Stop, Work,
-    check_reflectances, lamps_on, reflect,
-};
+use super::lit::Lit;
+use super::observer::Observer;
+use super::solution::{Progress, Solution, Stop};
+use super::start::{DARK, check_reflectances, lamps_on};
+use super::work::Work;
 use crate::colour::Rgb;
 use crate::direct::PatchLight;
 use crate::error::{Error, Result};
-use crate::mesh::{Direct, Mesh};
+use crate::light::{Direct, ElementLight, Optics, VertexLight};
+use crate::mesh::{Mesh, VertexId};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 
 /// A scene in which one group of lights alone shines.
 struct Alone<'a> {
     surfaces: &'a Surfaces,
-    light: PatchLight,
+    lamps: PatchLight,
     groups: Groups,
-    /// By patch, W/m².
-    exitance: Vec<Rgb>,
-    /// By vertex: direct light, and irradiance by reflected light, W/m².
-    known: Vec<(Option<Direct>, Option<Rgb>)>,
+    optics: Optics,
 }
 
 /// Lights the same surfaces under each of several lights, all on the same mesh: the solution of each, and their sum
@@ -50,35 +53,36 @@ pub fn solve_by_light(
     settings.validate()?;
     let settings = &checkpoint.settings(settings);
     let mut observer = Observer::new(&mut observe, checkpoint);
-    let mut alone: Vec<Alone<'_>> = scenes
+    let alone: Vec<Alone<'_>> = scenes
         .iter()
         .map(|(surfaces, _)| Alone::new(surfaces, settings, &mut observer))
         .collect::<Result<_>>()?;
     let mut mesh = Mesh::new(first, settings);
-    for alone in &mut alone {
-        alone.take_over(&mut mesh);
-        direct_pass::refine(alone.world(), settings, &mut mesh, &mut observer);
-        alone.leave(&mesh);
+    let mut lights = vec![VertexLight::default(); alone.len()];
+    for (alone, light) in alone.iter().zip(&mut lights) {
+        let lit = &mut Lit { mesh: &mut mesh, light };
+        direct_pass::refine(alone.context(), settings, lit, &mut observer);
     }
     let mut exchanges = Vec::new();
-    for alone in &mut alone {
-        alone.take_over(&mut mesh);
-        direct_pass::light_leaves(alone.world(), &mut mesh, &mut observer);
-        let mut exchange = Exchange::new(alone.world(), settings, &mesh, &mut observer)?;
-        let (gathered, work) =
-            reflect(alone.world(), settings, (&mut mesh, &mut exchange), &mut observer);
-        exchanges.push((exchange, gathered, work));
-        alone.leave(&mesh);
+    for (alone, light) in alone.iter().zip(&mut lights) {
+        let (context, lit) = (alone.context(), &mut Lit { mesh: &mut mesh, light });
+        direct_pass::light_leaves(context, lit, &mut observer);
+        let mut exchange = Exchange::new(context, settings, lit.mesh, lit.light, &mut observer)?;
+        exchange.reach_vertices(context, settings, lit, &mut observer);
+        exchanges.push(exchange);
     }
-    let finish = |(alone, (exchange, gathered, work)): (&Alone<'_>, (Exchange, usize, Work))| {
+    let finish = |((alone, mut light), exchange): ((&Alone<'_>, VertexLight), Exchange)| {
         let mut mesh = mesh.clone();
-        alone.take_over(&mut mesh);
-        direct_pass::light_leaves(alone.world(), &mut mesh, &mut observer);
+        direct_pass::light_leaves(
+            alone.context(),
+            &mut Lit { mesh: &mut mesh, light: &mut light },
+            &mut observer,
+        );
         // It has done without the elements that other lights asked for later.
-        interpolate(&mut mesh, REFLECTED);
-        exchange.solution(mesh, gathered, work)
+        interpolate(&mesh, &mut light, REFLECTED);
+        exchange.solution(mesh, alone.optics.clone(), light)
     };
-    let solutions: Vec<Solution> = alone.iter().zip(exchanges).map(finish).collect();
+    let solutions: Vec<Solution> = alone.iter().zip(lights).zip(exchanges).map(finish).collect();
     let strengths: Vec<Rgb> = scenes.iter().map(|(_, strength)| *strength).collect();
     Ok((sum(&solutions, &strengths), solutions))
 }
@@ -91,31 +95,15 @@ impl<'a> Alone<'a> {
     ) -> Result<Self> {
         settings.validate_for(surfaces.divided_area(), surfaces.extent)?;
         let mesh = Mesh::new(surfaces, settings);
-        check_reflectances(surfaces, &mesh)?;
-        let light = lamps_on(surfaces, settings, &mesh, observer)?;
+        let optics = Optics::new(surfaces, &mesh);
+        check_reflectances(surfaces, &mesh, &optics)?;
+        let lamps = lamps_on(surfaces, settings, &mesh, observer)?;
         let groups = Groups::new(surfaces, settings, &mesh);
-        let exitance = mesh.patches.iter().map(|patch| patch.exitance).collect();
-        Ok(Self { surfaces, light, groups, exitance, known: Vec::new() })
+        Ok(Self { surfaces, lamps, groups, optics })
     }
 
-    fn world(&self) -> World<'_> {
-        World::new(self.surfaces, &self.light, &self.groups)
-    }
-
-    /// Lights a mesh with what is known of this light, and puts out all other.
-    fn take_over(&self, mesh: &mut Mesh) {
-        for (patch, exitance) in mesh.patches.iter_mut().zip(&self.exitance) {
-            patch.exitance = *exitance;
-        }
-        let known = self.known.iter().copied().chain(std::iter::repeat((None, None)));
-        for (vertex, light) in mesh.vertices.iter_mut().zip(known) {
-            (vertex.direct, vertex.indirect) = light;
-        }
-    }
-
-    /// Remembers what a mesh says of this light; vertices are only ever added.
-    fn leave(&mut self, mesh: &Mesh) {
-        self.known = mesh.vertices.iter().map(|vertex| (vertex.direct, vertex.indirect)).collect();
+    fn context(&self) -> Context<'_> {
+        Context::new(self.surfaces, &self.optics, &self.lamps, &self.groups)
     }
 }
 
@@ -125,17 +113,17 @@ fn sum(solutions: &[Solution], strengths: &[Rgb]) -> Solution {
     let each = || solutions.iter().zip(strengths);
     let total =
         |light: &dyn Fn(&Solution) -> Rgb| each().map(|(s, &strength)| strength * light(s)).sum();
-    for patch in 0..sum.mesh.patches.len() {
-        sum.mesh.patches[patch].exitance = total(&|s| s.mesh.patches[patch].exitance);
-    }
-    for vertex in 0..sum.mesh.vertices.len() {
-        let direct = |s: &Solution| s.mesh.vertices[vertex].direct.unwrap_or_default();
-        sum.mesh.vertices[vertex].direct = Some(Direct {
+    let patches = 0..sum.mesh.patches.len();
+    sum.optics.exitance = patches.map(|patch| total(&|s| s.optics.exitance[patch])).collect();
+    for vertex in (0..sum.mesh.vertices.len() as u32).map(VertexId) {
+        let direct = |s: &Solution| s.vertex_light.direct(vertex).unwrap_or_default();
+        let direct = Direct {
             irradiance: total(&|s| direct(s).irradiance),
             unoccluded: total(&|s| direct(s).unoccluded),
-        });
-        let indirect = |s: &Solution| s.mesh.vertices[vertex].indirect.unwrap_or_default();
-        sum.mesh.vertices[vertex].indirect = Some(total(&indirect));
+        };
+        sum.vertex_light.set_direct(vertex, direct);
+        let indirect = |s: &Solution| s.vertex_light.indirect(vertex).unwrap_or_default();
+        sum.vertex_light.set_indirect(vertex, total(&indirect));
     }
     let elements = 0..sum.light.direct.len();
     sum.light = ElementLight {

@@ -7,42 +7,24 @@ use serde::de::DeserializeOwned;
 use smallvec::SmallVec;
 
 use super::arrival::steep_means;
-use super::groups::Groups;
-use super::lookout::{ONE_PLACE, neighbours};
+use super::context::Context;
+use super::lit::Lit;
+use super::lookout::neighbours;
+use super::observer::Observer;
 use super::outlooks::Outlooks;
+use super::solution::Phase;
 use super::unfinished::make_do;
-use super::{Observer, Phase};
-use crate::colour::Rgb;
+use crate::colour::{Rgb, strength};
 use crate::direct::PatchLight;
-use crate::mesh::{Direct, ElementId, Mesh, Middle, PatchId, Split, Vertex, VertexId};
-use crate::refine::{self, Discontinuity, Oracle, cut, strength};
+use crate::light::{Direct, Optics, VertexLight};
+use crate::mesh::{Element, ElementId, Mesh, Middle, PatchId, Split, VertexId};
+use crate::refine::{Discontinuity, LineSearch, Oracle, Sample, cut, reason};
 use crate::settings::Settings;
-use crate::surface::Surfaces;
-use crate::visibility::Occluders;
 use crate::watch::Enough;
 
 /// Probes along each axis of an element; together with edges and centre no gap is wider than a
 /// quarter of a side.
 const PROBES: usize = 4;
-
-/// What light meets on its way.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct World<'a> {
-    pub(super) surfaces: &'a Surfaces,
-    pub(super) occluders: &'a Occluders,
-    pub(super) light: &'a PatchLight,
-    /// What shoots as one.
-    pub(super) groups: &'a Groups,
-    /// Vertices of facets nearer to each other than this, m, are at one place.
-    near: f64,
-}
-
-impl<'a> World<'a> {
-    pub(super) fn new(surfaces: &'a Surfaces, light: &'a PatchLight, groups: &'a Groups) -> Self {
-        let near = ONE_PLACE * surfaces.tolerance;
-        Self { surfaces, occluders: light.occluders(), light, groups, near }
-    }
-}
 
 /// Evaluates direct light at all vertices that lack it; of these, those in the middle of `elements` and on their
 /// borders by what stands before each element.
@@ -50,26 +32,26 @@ impl<'a> World<'a> {
 /// Vertices of facets that are in one group and at one place see the same share of it.
 fn light(
     outlooks: &Outlooks<'_>,
-    mesh: &mut Mesh,
+    Lit { mesh, light }: &mut Lit<'_>,
     elements: &[ElementId],
     observer: &mut Observer<'_>,
 ) {
-    let world = outlooks.world;
-    let (owned, others) = owners(world, mesh, elements);
-    let sets = neighbours((mesh, world.groups), world.near, &others);
+    let (mesh, context) = (&**mesh, outlooks.context);
+    let (owned, others) = owners(context, mesh, light, elements);
+    let sets = neighbours(mesh, context.groups, context.near, &others);
     let on_element = |(element, vertices): &(ElementId, SmallVec<[VertexId; 5]>)| {
         let outlook = outlooks.from(mesh, *element);
         vertices.iter().map(|&v| outlook.at(mesh[v].site)).collect::<SmallVec<[Direct; 1]>>()
     };
-    let shine = |set: &SmallVec<_>| light_together(world, mesh, set);
-    let mut lit = evaluate(world.light, &owned, on_element, observer);
+    let shine = |set: &SmallVec<_>| light_together(context.light, mesh, set);
+    let mut lit = evaluate(context.light, &owned, on_element, observer);
     // Cut short, the second list would not begin where the first ends.
     if lit.len() == owned.len() {
-        lit.extend(evaluate(world.light, &sets, shine, observer));
+        lit.extend(evaluate(context.light, &sets, shine, observer));
     }
     let vertices = owned.iter().flat_map(|(_, vertices)| vertices).chain(sets.iter().flatten());
-    for (vertex, direct) in vertices.zip(lit.iter().flatten()) {
-        mesh.vertices[vertex.index()].direct = Some(*direct);
+    for (&vertex, &direct) in vertices.zip(lit.iter().flatten()) {
+        light.set_direct(vertex, direct);
     }
 }
 
@@ -77,11 +59,16 @@ fn light(
 type Owned = Vec<(ElementId, SmallVec<[VertexId; 5]>)>;
 
 /// The vertices that lack light: those of each element, but for facets, and the others. Each is in one list, once.
-fn owners(world: World<'_>, mesh: &Mesh, elements: &[ElementId]) -> (Owned, Vec<VertexId>) {
-    let mut is_dark: Vec<bool> =
-        mesh.vertices.iter().map(|vertex| vertex.direct.is_none()).collect();
+fn owners(
+    context: Context<'_>,
+    mesh: &Mesh,
+    light: &VertexLight,
+    elements: &[ElementId],
+) -> (Owned, Vec<VertexId>) {
+    let vertices = || (0..mesh.vertices.len() as u32).map(VertexId);
+    let mut is_dark: Vec<bool> = vertices().map(|v| light.direct(v).is_none()).collect();
     let mut owned = Vec::new();
-    for &element in elements.iter().filter(|&&e| !world.groups.holds(mesh[e].patch)) {
+    for &element in elements.iter().filter(|&&e| !context.groups.holds(mesh[e].patch)) {
         let middle = mesh.find_middle(element);
         let middle = middle.iter().flat_map(|m| m.edges.iter().chain([&m.centre]));
         let vertices = mesh[element].corners.iter().chain(middle).copied();
@@ -94,8 +81,8 @@ fn owners(world: World<'_>, mesh: &Mesh, elements: &[ElementId]) -> (Owned, Vec<
             owned.push((element, dark));
         }
     }
-    let others = (0..mesh.vertices.len() as u32).map(VertexId).filter(|v| is_dark[v.index()]);
-    (owned, others.collect())
+    let others = vertices().filter(|v| is_dark[v.index()]).collect();
+    (owned, others)
 }
 
 /// What `work` makes of each item, in their order.
@@ -123,11 +110,7 @@ fn evaluate<T: Sync, R: Send + Serialize + DeserializeOwned>(
 }
 
 /// Direct light at vertices next to each other: what the one that it reaches best sees of it, all do.
-fn light_together(
-    World { light, .. }: World<'_>,
-    mesh: &Mesh,
-    vertices: &[VertexId],
-) -> SmallVec<[Direct; 1]> {
+fn light_together(light: &PatchLight, mesh: &Mesh, vertices: &[VertexId]) -> SmallVec<[Direct; 1]> {
     let at = |v: VertexId| light.at(mesh[v].patch, mesh[v].site);
     if let &[vertex] = vertices {
         return SmallVec::from_buf([at(vertex)]);
@@ -143,78 +126,83 @@ fn light_together(
 }
 
 /// Evaluates direct light at the corners of all leaves, and in their middle, as their means need.
-pub(super) fn light_leaves(world: World<'_>, mesh: &mut Mesh, observer: &mut Observer<'_>) {
+pub(super) fn light_leaves(context: Context<'_>, lit: &mut Lit<'_>, observer: &mut Observer<'_>) {
     // Facets are so small that their corners tell enough.
-    let is_whole = |&leaf: &ElementId| !world.groups.holds(mesh[leaf].patch);
-    let leaves: Vec<ElementId> = mesh.leaves().filter(is_whole).collect();
+    let is_whole = |&leaf: &ElementId| !context.groups.holds(lit.mesh[leaf].patch);
+    let leaves: Vec<ElementId> = lit.mesh.leaves().filter(is_whole).collect();
     for &leaf in &leaves {
-        mesh.middle(leaf);
+        lit.mesh.middle(leaf);
     }
-    light(&Outlooks::new(world, mesh), mesh, &leaves, observer);
+    light(&Outlooks::new(context, lit.mesh), lit, &leaves, observer);
     if observer.flow.is_break() {
-        make_do(world.light, mesh);
+        make_do(context.light, lit.mesh, lit.light);
     } else {
-        mesh.steep = steep_means(world, mesh, &leaves);
+        lit.light.steep = steep_means(context, lit.mesh, lit.light, &leaves);
     }
 }
 
-/// True for small facets that are lit evenly, as their neighbours will be: no shadow edge is looked for that
-/// would be hardly longer than the shortest side.
-fn is_even_facet((groups, mesh): (&Groups, &Mesh), oracle: &Oracle, element: ElementId) -> bool {
-    let patch = mesh[element].patch;
-    let light =
-        |vertex: &Vertex| mesh[patch].reflectance * vertex.direct.unwrap_or_default().irradiance;
-    groups.holds(patch) && oracle.is_small(mesh, element) && oracle.is_even((mesh, element), light)
+/// Radiosity by direct light at a vertex of an element, W/m².
+fn shown(optics: &Optics, light: &VertexLight, element: &Element) -> impl Fn(VertexId) -> Rgb {
+    let reflectance = optics.of(element);
+    move |v| reflectance * light.direct_irradiance(v)
+}
+
+/// What direct light is judged by.
+struct Judge<'a> {
+    context: Context<'a>,
+    oracle: Oracle,
+    /// By patch.
+    lines: Vec<Vec<Discontinuity>>,
 }
 
 /// Refines the mesh until direct light can be interpolated; leaves a uniform mesh as it is.
 pub(super) fn refine(
-    world: World<'_>,
+    context: Context<'_>,
     settings: &Settings,
-    mesh: &mut Mesh,
+    lit: &mut Lit<'_>,
     observer: &mut Observer<'_>,
 ) {
     if observer.tell(Phase::Direct, 0.0).is_break() {
         return;
     }
-    light(&Outlooks::new(world, mesh), mesh, &[], observer);
+    light(&Outlooks::new(context, lit.mesh), lit, &[], observer);
     if settings.uniform.is_some() || observer.flow.is_break() {
         return;
     }
-    let oracle = Oracle::of_direct_light(settings, world.surfaces.extent, mesh);
-    let may_be_divided = |mesh: &Mesh, element: ElementId| {
-        oracle.may_divide(mesh, element)
-            && reflects(mesh, element)
-            && !is_even_facet((world.groups, mesh), &oracle, element)
-    };
+    let oracle = Oracle::of_direct_light(
+        settings,
+        context.surfaces.extent,
+        lit.mesh,
+        context.optics,
+        lit.light,
+    );
+    let mut judge = Judge { context, oracle, lines: vec![Vec::new(); lit.mesh.patches.len()] };
     let mut candidates: Vec<ElementId> =
-        mesh.leaves().filter(|&e| may_be_divided(mesh, e)).collect();
-    let lines = if settings.discontinuity_lines && settings.max_level > 0 {
-        discontinuities(world, mesh, (&oracle, &candidates), observer)
-    } else {
-        vec![Vec::new(); mesh.patches.len()]
-    };
-    let (mut outlooks, mut before) = (Outlooks::new(world, mesh), Vec::new());
+        lit.mesh.leaves().filter(|&e| judge.may_divide(lit.mesh, lit.light, e)).collect();
+    if settings.discontinuity_lines && settings.max_level > 0 {
+        judge.find_lines(lit.mesh, &candidates, observer);
+    }
+    let (mut outlooks, mut before) = (Outlooks::new(context, lit.mesh), Vec::new());
     for level in 0..settings.max_level {
         let share = f64::from(level) / f64::from(settings.max_level);
         if observer.tell(Phase::Direct, share).is_break() {
             return;
         }
-        candidates.retain(|&e| may_be_divided(mesh, e));
-        let middles: Vec<Middle> = candidates.iter().map(|&e| mesh.middle(e)).collect();
-        light(&outlooks, mesh, &candidates, observer);
+        candidates.retain(|&e| judge.may_divide(lit.mesh, lit.light, e));
+        let middles: Vec<Middle> = candidates.iter().map(|&e| lit.mesh.middle(e)).collect();
+        light(&outlooks, lit, &candidates, observer);
         let judged: Vec<(ElementId, &Middle)> = candidates.iter().copied().zip(&middles).collect();
-        let judge = |&(element, middle): &(ElementId, &Middle)| {
-            divide((&outlooks, mesh), (&oracle, &lines), element, middle)
-        };
-        let verdicts: Vec<Option<Split>> = evaluate(world.light, &judged, judge, observer);
+        let Lit { mesh, light } = &mut *lit;
+        let round = Round { judge: &judge, outlooks: &outlooks, mesh, light };
+        let verdict = |&(element, middle): &(ElementId, &Middle)| round.divide(element, middle);
+        let verdicts: Vec<Option<Split>> = evaluate(context.light, &judged, verdict, observer);
         if !mesh.has_room_for(verdicts.iter().flatten().count()) {
             return;
         }
         let mut divided = Vec::new();
         for ((&element, middle), verdict) in candidates.iter().zip(&middles).zip(verdicts) {
             if let Some(split) = verdict {
-                let reason = oracle.reason((mesh, element), split, middle);
+                let reason = reason(mesh, light, element, split, middle);
                 mesh.split(element, split, reason);
                 divided.push(element);
             }
@@ -226,72 +214,82 @@ pub(super) fn refine(
     }
 }
 
-/// Discontinuity lines by patch, of those patches whose elements may be divided.
-fn discontinuities(
-    world: World<'_>,
-    mesh: &Mesh,
-    (oracle, candidates): (&Oracle, &[ElementId]),
-    observer: &mut Observer<'_>,
-) -> Vec<Vec<Discontinuity>> {
-    let mut wanted: Vec<PatchId> = candidates.iter().map(|&element| mesh[element].patch).collect();
-    wanted.sort_unstable();
-    wanted.dedup();
-    // Where there has been enough, nothing will be divided.
-    let _ = observer.begin(Phase::Lines, 0.0..1.0);
-    let found = observer.map(&wanted, Enough::clone, |enough, &patch| {
-        let enough = || enough.is_said();
-        refine::discontinuities((world.surfaces, mesh), patch, (world.light, oracle), enough)
-    });
-    let mut lines = vec![Vec::new(); mesh.patches.len()];
-    for (patch, found) in wanted.into_iter().zip(found) {
-        lines[patch.index()] = found;
+impl Judge<'_> {
+    fn may_divide(&self, mesh: &Mesh, light: &VertexLight, element: ElementId) -> bool {
+        self.oracle.may_divide(mesh, element)
+            && self.context.optics.reflects(mesh[element].patch)
+            && !self.is_even_facet(mesh, light, element)
     }
-    lines
+
+    /// True for small facets that are lit evenly, as their neighbours will be: no shadow edge is looked for that
+    /// would be hardly longer than the shortest side.
+    fn is_even_facet(&self, mesh: &Mesh, light: &VertexLight, element: ElementId) -> bool {
+        let sample =
+            || Sample::new(mesh, element, shown(self.context.optics, light, &mesh[element]));
+        self.context.groups.holds(mesh[element].patch)
+            && self.oracle.is_small(mesh, element)
+            && self.oracle.is_even(&sample())
+    }
+
+    /// Finds the discontinuity lines of those patches whose elements may be divided.
+    fn find_lines(&mut self, mesh: &Mesh, candidates: &[ElementId], observer: &mut Observer<'_>) {
+        let mut wanted: Vec<PatchId> =
+            candidates.iter().map(|&element| mesh[element].patch).collect();
+        wanted.sort_unstable();
+        wanted.dedup();
+        // Where there has been enough, nothing will be divided.
+        let _ = observer.begin(Phase::Lines, 0.0..1.0);
+        let Context { optics, light, .. } = self.context;
+        let search = LineSearch { mesh, optics, light, oracle: &self.oracle };
+        let found = observer
+            .map(&wanted, Enough::clone, |enough, &patch| search.on(patch, || enough.is_said()));
+        for (patch, found) in wanted.into_iter().zip(found) {
+            self.lines[patch.index()] = found;
+        }
+    }
 }
 
-/// Black surfaces show no light, so nothing is gained by dividing them.
-pub(super) fn reflects(mesh: &Mesh, element: ElementId) -> bool {
-    mesh[mesh[element].patch].reflectance.max_element() > 0.0
+/// A level of elements and what is known about them.
+struct Round<'r, 'a> {
+    judge: &'r Judge<'a>,
+    outlooks: &'r Outlooks<'a>,
+    mesh: &'r Mesh,
+    light: &'r VertexLight,
 }
 
-/// How to divide an element, if at all: along a discontinuity line, or as the oracle says.
-fn divide(
-    (outlooks, mesh): (&Outlooks<'_>, &Mesh),
-    (oracle, lines): (&Oracle, &[Vec<Discontinuity>]),
-    element: ElementId,
-    middle: &Middle,
-) -> Option<Split> {
-    let lines = &lines[mesh[element].patch.index()];
-    let cut = cut((mesh, element), lines, oracle, outlooks.world.surfaces.tolerance);
-    cut.or_else(|| judge((outlooks, mesh), oracle, element, middle))
-}
+impl Round<'_, '_> {
+    /// How to divide an element, if at all: along a discontinuity line, or as the oracle says.
+    fn divide(&self, element: ElementId, middle: &Middle) -> Option<Split> {
+        let Self { judge: Judge { context, oracle, lines }, mesh, light, .. } = self;
+        let shown = shown(context.optics, light, &mesh[element]);
+        let sample = Sample::new(mesh, element, &shown);
+        let lines = &lines[mesh[element].patch.index()];
+        let along_line =
+            cut(&mesh.outline(element), lines, oracle.allowed(&sample), mesh.tolerance());
+        let is_off = |allowed| self.is_off(element, allowed);
+        along_line.or_else(|| oracle.judge(&sample, middle, &shown, is_off))
+    }
 
-fn judge(
-    (outlooks, mesh): (&Outlooks<'_>, &Mesh),
-    oracle: &Oracle,
-    element: ElementId,
-    middle: &Middle,
-) -> Option<Split> {
-    let patch = mesh[element].patch;
-    let direct = |vertex: &Vertex| vertex.direct.unwrap_or_default().irradiance;
-    let light = |vertex: &Vertex| mesh[patch].reflectance * direct(vertex);
-    oracle.judge((mesh, element), middle, light, |allowed| {
+    /// True if light somewhere inside an element is off by more than is allowed, W/m².
+    fn is_off(&self, element: ElementId, allowed: f64) -> bool {
+        let Self { judge: Judge { context, oracle, .. }, outlooks, mesh, light } = self;
+        let patch = mesh[element].patch;
         let outlook = outlooks.from(mesh, element);
         // Between the middles of small elements is nothing to be found where nothing stands before lamps; in crowds,
         // shadows there are as small as what makes them: they blur.
-        let is_plain =
-            outlooks.world.groups.holds(patch) || outlook.is_clear() || outlook.is_crowded();
+        let is_plain = context.groups.holds(patch) || outlook.is_clear() || outlook.is_crowded();
         if is_plain && oracle.is_small(mesh, element) {
             return false;
         }
-        let plane = &outlooks.world.surfaces.list[mesh.surface_of(element)].plane;
+        let (plane, reflectance) = (mesh.plane(patch), context.optics.reflectance[patch.index()]);
+        let corners = mesh[element].corners.iter();
         let corners: Vec<(DVec2, Rgb)> =
-            mesh[element].corners.iter().map(|&v| (mesh[v].position, direct(&mesh[v]))).collect();
+            corners.map(|&v| (mesh[v].position, light.direct_irradiance(v))).collect();
         probes(&corners).into_iter().any(|(position, expected)| {
             let Direct { irradiance, .. } = outlook.at(plane.lift(position));
-            strength(mesh[patch].reflectance * (irradiance - expected)) > allowed
+            strength(reflectance * (irradiance - expected)) > allowed
         })
-    })
+    }
 }
 
 /// Places inside a quadrilateral or triangle off its midlines, with interpolated values.

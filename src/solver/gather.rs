@@ -11,16 +11,19 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-use super::Observer;
+use super::context::Surroundings;
 use super::glare::{Gaze, glaring};
 use super::groups::Groups;
+use super::lit::Lit;
 use super::lookout::{Arrival, LightField, Lookout, lookouts};
+use super::observer::Observer;
 use super::sources::{Piece, Sources};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::{
     Cover, DeltaFactors, Hemicube, Sight, Targets, enough_cells, turn,
 };
+use crate::light::Optics;
 use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
@@ -61,7 +64,7 @@ pub(super) struct Gatherer<'a> {
     groups: &'a Groups,
     /// Vertices of a group of facets nearer to each other than this, m, have one view.
     near: f64,
-    sources: Sources,
+    sources: Sources<'a>,
     /// By patch: whether it is among `glaring`.
     glares: Vec<bool>,
     glaring: Vec<PatchId>,
@@ -80,9 +83,11 @@ pub(super) struct Gatherer<'a> {
 
 impl<'a> Gatherer<'a> {
     pub(super) fn new(
-        (surfaces, occluders, groups): (&'a Surfaces, &'a Occluders, &'a Groups),
+        Surroundings { surfaces, occluders, groups }: Surroundings<'a>,
         settings: &Settings,
-        (mesh, sources, level): (&Mesh, Sources, f64),
+        mesh: &Mesh,
+        sources: Sources<'a>,
+        level: f64,
     ) -> Self {
         let resolution = enough_cells(groups.patches(), settings.tolerance, MOST_CELLS);
         let delta = DeltaFactors::new(resolution);
@@ -118,16 +123,17 @@ impl<'a> Gatherer<'a> {
     /// Evaluates indirect light at those of the vertices that lack it.
     pub(super) fn light(
         &mut self,
-        mesh: &mut Mesh,
+        Lit { mesh, light }: &mut Lit<'_>,
         vertices: impl IntoIterator<Item = VertexId>,
         observer: &mut Observer<'_>,
     ) {
+        let mesh = &**mesh;
         let mut dark: Vec<VertexId> =
-            vertices.into_iter().filter(|&v| mesh[v].indirect.is_none()).collect();
+            vertices.into_iter().filter(|&v| light.indirect(v).is_none()).collect();
         dark.sort_unstable();
         dark.dedup();
         let targets = Targets::new(&mesh.patches);
-        let lookouts = lookouts((self.surfaces, mesh, self.groups), self.near, &dark);
+        let lookouts = lookouts(mesh, self.groups, self.near, &dark);
         let lit: Vec<Vec<Vec<Gathered>>> = observer.evaluate(&lookouts, |batch, enough| {
             let hemicube = || Hemicube::new(&self.delta, &targets, self.occluders);
             let gather =
@@ -142,14 +148,18 @@ impl<'a> Gatherer<'a> {
             vertices.zip(lit.into_iter().flatten().flatten())
         {
             self.factors += factors;
-            mesh.vertices[vertex.index()].indirect = Some(irradiance);
+            light.set_indirect(vertex, irradiance);
             self.views[vertex.index()] = Some(view);
         }
     }
 
     /// Replaces what elements reflect, and forgets the light of vertices that this may change:
     /// of those that see much of what has changed, and of all that were interpolated.
-    pub(super) fn replace_sources(&mut self, mesh: &mut Mesh, sources: Sources) {
+    pub(super) fn replace_sources(
+        &mut self,
+        Lit { mesh, light }: &mut Lit<'_>,
+        sources: Sources<'a>,
+    ) {
         let before = std::mem::replace(&mut self.sources, sources);
         self.find_glaring(mesh);
         let patches = (0..mesh.patches.len() as u32).map(PatchId);
@@ -158,11 +168,15 @@ impl<'a> Gatherer<'a> {
             let seen: f64 = view.iter().map(|(patch, factor)| change[patch.index()] * factor).sum();
             seen > STALE * self.fine
         };
-        for (vertex, view) in mesh.vertices.iter_mut().zip(&self.views) {
-            if view.as_ref().is_none_or(is_stale) {
-                vertex.indirect = None;
-            }
-        }
+        light.forget_indirect(|v| {
+            let view = self.views.get(v.index());
+            view.is_some_and(|view| view.as_ref().is_none_or(is_stale))
+        });
+    }
+
+    /// How patches reflect.
+    pub(super) fn optics(&self) -> &'a Optics {
+        self.sources.optics
     }
 
     /// What of the mesh is in groups.
@@ -234,8 +248,8 @@ impl<'a> Gatherer<'a> {
                 view.push((sight.patch, sight.delta));
             }
         }
-        let Self { surfaces, occluders, sources, fine, .. } = self;
-        let gaze = Gaze { mesh, surfaces, occluders, sources, eye: place, fine: *fine };
+        let Self { occluders, sources, fine, .. } = self;
+        let gaze = Gaze { mesh, occluders, sources, eye: place, fine: *fine };
         for &patch in &self.glaring {
             let (factor, count) = gaze.receive(patch, arrive);
             factors += count;
@@ -287,7 +301,7 @@ impl<'a> Gatherer<'a> {
                 _ => hemicube.visible_share(sight.patch, &corners),
             };
             if varies {
-                let piece = self.sources.piece(mesh, surfaces, source);
+                let piece = self.sources.piece(mesh, source);
                 let (light, count) = self.piece_light((site, normal), (&piece, factor), DEEPEST);
                 arrive(&Arrival { light: visible * light, corners: &corners });
                 factors += count;

@@ -14,7 +14,6 @@ use super::sources::{Piece, Sources};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
 use crate::mesh::{ElementId, Mesh, PatchId};
-use crate::surface::Surfaces;
 use crate::visibility::{HalfSpace, Occluders};
 
 /// Radiosity that varies by more than this many times the mean of the scene glares.
@@ -24,7 +23,7 @@ const GLARING: f64 = 4.0;
 const DEEPEST: u32 = 6;
 
 /// By element, whether its radiosity varies so much, in a scene with a mean radiosity of `level`, W/m².
-pub(super) fn glaring(mesh: &Mesh, sources: &Sources, level: f64) -> Vec<bool> {
+pub(super) fn glaring(mesh: &Mesh, sources: &Sources<'_>, level: f64) -> Vec<bool> {
     let elements = (0..mesh.elements.len() as u32).map(ElementId);
     elements.map(|element| sources.spread(element) > GLARING * level).collect()
 }
@@ -32,9 +31,8 @@ pub(super) fn glaring(mesh: &Mesh, sources: &Sources, level: f64) -> Vec<bool> {
 /// A place that light is gathered at, looking at one patch that glares.
 pub(super) struct Gaze<'a> {
     pub(super) mesh: &'a Mesh,
-    pub(super) surfaces: &'a Surfaces,
     pub(super) occluders: &'a Occluders,
-    pub(super) sources: &'a Sources,
+    pub(super) sources: &'a Sources<'a>,
     /// The place, m, and its unit normal.
     pub(super) eye: (DVec3, DVec3),
     /// Differences of irradiance that do not matter, W/m².
@@ -71,7 +69,7 @@ impl Gaze<'_> {
         let mut look = Look { gaze: self, normal: patch.normal, is_clear, factors: 0 };
         let mut open: SmallVec<[ElementId; 32]> = SmallVec::from_elem(patch.root, 1);
         while let Some(source) = open.pop() {
-            let piece = sources.piece(mesh, self.surfaces, source);
+            let piece = sources.piece(mesh, source);
             let factor = look.factor(&piece.corners);
             let parts = sources.parts(mesh, source);
             if !parts.is_empty() && look.is_coarse(factor, sources.spread(source)) {

@@ -9,7 +9,7 @@ use super::groups::Groups;
 use crate::colour::Rgb;
 use crate::form_factor::contour::vector_to_polygon;
 use crate::mesh::{Mesh, VertexId};
-use crate::surface::{Surfaces, Weld};
+use crate::surface::Weld;
 
 /// How high over facets a lookout is, in tolerances: well above ridges that it is a hair away from.
 const LIFT: f64 = 50.0;
@@ -32,17 +32,19 @@ pub(super) struct Lookout {
 
 /// The lookouts of vertices: those of facets that are in one group and `near` each other, m, share one.
 pub(super) fn lookouts(
-    (surfaces, mesh, groups): (&Surfaces, &Mesh, &Groups),
+    mesh: &Mesh,
+    groups: &Groups,
     near: f64,
     vertices: &[VertexId],
 ) -> Vec<Lookout> {
-    let sets = neighbours((mesh, groups), near.max(ONE_PLACE * surfaces.tolerance), vertices);
-    sets.into_iter().map(|set| Lookout::new((surfaces, mesh), set)).collect()
+    let sets = neighbours(mesh, groups, near.max(ONE_PLACE * mesh.tolerance()), vertices);
+    sets.into_iter().map(|set| Lookout::new(mesh, set)).collect()
 }
 
 /// Vertices, those of facets together that are in one group and `near` each other, m.
 pub(super) fn neighbours(
-    (mesh, groups): (&Mesh, &Groups),
+    mesh: &Mesh,
+    groups: &Groups,
     near: f64,
     vertices: &[VertexId],
 ) -> Vec<SmallVec<[VertexId; 1]>> {
@@ -64,8 +66,8 @@ pub(super) fn neighbours(
 }
 
 impl Lookout {
-    fn new((surfaces, mesh): (&Surfaces, &Mesh), vertices: SmallVec<[VertexId; 1]>) -> Self {
-        let normal_of = |v: VertexId| surfaces.list[mesh[v].surface as usize].plane.normal;
+    fn new(mesh: &Mesh, vertices: SmallVec<[VertexId; 1]>) -> Self {
+        let normal_of = |v: VertexId| mesh.plane(mesh[v].patch).normal;
         if let &[vertex] = vertices.as_slice() {
             return Self { eye: mesh.outlook(vertex), normal: normal_of(vertex), vertices };
         }
@@ -74,10 +76,10 @@ impl Lookout {
         let aside = |v: VertexId| site(v).distance_squared(middle);
         let nearest = vertices.iter().copied().min_by(|&a, &b| aside(a).total_cmp(&aside(b)));
         let at = nearest.map_or(middle, site);
-        let here = |v: &&VertexId| site(**v).distance(at) <= ONE_PLACE * surfaces.tolerance;
+        let here = |v: &&VertexId| site(**v).distance(at) <= ONE_PLACE * mesh.tolerance();
         let sum: DVec3 = vertices.iter().filter(here).map(|&v| normal_of(v)).sum();
         let normal = sum.normalize_or(normal_of(vertices[0]));
-        Self { vertices, eye: at + normal * (LIFT * surfaces.tolerance), normal }
+        Self { vertices, eye: at + normal * (LIFT * mesh.tolerance()), normal }
     }
 }
 

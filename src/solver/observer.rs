@@ -6,7 +6,8 @@ use std::time::Instant;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::{Checkpoint, Phase, Progress};
+use super::checkpoint::Checkpoint;
+use super::solution::{Phase, Progress};
 use crate::watch::{Enough, Pace, in_batches, watched};
 
 /// Tells a caller how far things are, and remembers if it has had enough.

@@ -5,13 +5,13 @@ use std::sync::OnceLock;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::direct_pass::World;
+use super::context::Context;
 use crate::direct::Outlook;
 use crate::mesh::{ElementId, Mesh};
 
 /// The outlooks of a mesh's elements, each a part of that of the element around it.
 pub(super) struct Outlooks<'a> {
-    pub(super) world: World<'a>,
+    pub(super) context: Context<'a>,
     /// By element.
     of: Vec<OnceLock<Outlook<'a>>>,
     /// By element: that of which it is a part, if that is known.
@@ -20,8 +20,8 @@ pub(super) struct Outlooks<'a> {
 
 impl<'a> Outlooks<'a> {
     /// Of the elements that the mesh has now, none of which has been looked from.
-    pub(super) fn new(world: World<'a>, mesh: &Mesh) -> Self {
-        let mut outlooks = Self { world, of: Vec::new(), around: Vec::new() };
+    pub(super) fn new(context: Context<'a>, mesh: &Mesh) -> Self {
+        let mut outlooks = Self { context, of: Vec::new(), around: Vec::new() };
         outlooks.extend(mesh, &[]);
         outlooks
     }
@@ -40,12 +40,12 @@ impl<'a> Outlooks<'a> {
     /// What is seen from an element of the mesh.
     pub(super) fn from(&self, mesh: &Mesh, element: ElementId) -> &Outlook<'a> {
         self.of[element.index()].get_or_init(|| {
-            let plane = &self.world.surfaces.list[mesh.surface_of(element)].plane;
+            let plane = mesh.plane(mesh[element].patch);
             let outline = mesh.outline(element);
             let corners: SmallVec<[DVec3; 8]> = outline.iter().map(|&p| plane.lift(p)).collect();
             match self.around[element.index()] {
                 Some(around) => self.from(mesh, around).on_part(&corners),
-                None => self.world.light.on(mesh[element].patch).on_part(&corners),
+                None => self.context.light.on(mesh[element].patch).on_part(&corners),
             }
         })
     }

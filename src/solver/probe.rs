@@ -4,9 +4,10 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 
-use super::Solution;
+use super::context::Surroundings;
 use super::gather::Gatherer;
 use super::groups::Groups;
+use super::solution::Solution;
 use super::sources::Sources;
 use crate::colour::{LUMENS_PER_WATT, Rgb, luminance};
 use crate::direct::Lamps;
@@ -56,14 +57,14 @@ pub fn read(
     places: &[(DVec3, DVec3)],
     observe: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Vec<Reading> {
-    let (mesh, occluders) = (&solution.mesh, Occluders::new(surfaces));
+    let Solution { mesh, optics, vertex_light, .. } = solution;
+    let occluders = Occluders::new(surfaces);
     let lamps = Lamps::new(surfaces, mesh).seen_by(settings.shadow_rays);
-    let sources = Sources::of_vertices(mesh);
-    let level = sources.level(mesh);
-    let light = (mesh, sources, level);
+    let sources = Sources::of_vertices(mesh, optics, vertex_light);
+    let level = sources.level(mesh, vertex_light);
     let groups = Groups::new(surfaces, settings, mesh);
-    let world = (surfaces, &occluders, &groups);
-    let gatherer = Gatherer::new(world, settings, light);
+    let surroundings = Surroundings { surfaces, occluders: &occluders, groups: &groups };
+    let gatherer = Gatherer::new(surroundings, settings, mesh, sources, level);
     let targets = Targets::new(&mesh.patches);
     let hemicube = |_: &Enough| Hemicube::new(gatherer.delta(), &targets, &occluders);
     let numbered: Vec<_> = places.iter().copied().enumerate().collect();

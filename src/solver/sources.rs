@@ -3,11 +3,10 @@
 use glam::{DMat3, DVec3};
 use smallvec::SmallVec;
 
-use super::ElementLight;
-use crate::colour::Rgb;
-use crate::mesh::{ElementId, Mesh, PatchId, Vertex};
-use crate::refine::{mean_radiosity, strength};
-use crate::surface::Surfaces;
+use crate::colour::{Rgb, strength};
+use crate::light::{ElementLight, Optics, VertexLight};
+use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
+use crate::refine::mean_radiosity;
 
 /// Radiosity beyond this many times the mean of the scene counts as that much in it.
 const HOT: f64 = 8.0;
@@ -19,13 +18,14 @@ const ROUNDS: usize = 8;
 const LEAST: f64 = 1.0 / 32.0;
 
 /// Mean radiosity of a scene whose vertices are lit, W/m², by which errors are measured.
-pub(crate) fn level(mesh: &Mesh) -> f64 {
-    Sources::of_vertices(mesh).level(mesh)
+pub(crate) fn level(mesh: &Mesh, optics: &Optics, light: &VertexLight) -> f64 {
+    Sources::of_vertices(mesh, optics, light).level(mesh, light)
 }
 
 /// Reflected radiosities, W/m², emission not included.
 #[derive(Clone, Debug)]
-pub(super) struct Sources {
+pub(super) struct Sources<'a> {
+    pub(super) optics: &'a Optics,
     /// Mean over each element.
     mean: Vec<Rgb>,
     /// How far the radiosity within an element is from its mean.
@@ -41,18 +41,21 @@ pub(super) struct Piece {
     light: SmallVec<[Rgb; 4]>,
 }
 
-impl Sources {
+impl<'a> Sources<'a> {
     /// From the means over elements, and irradiances of vertices that need only be right in how they vary.
-    pub(super) fn new(mesh: &Mesh, light: &ElementLight, irradiance: Vec<Rgb>) -> Self {
+    pub(super) fn new(
+        mesh: &Mesh,
+        optics: &'a Optics,
+        light: &ElementLight,
+        irradiance: Vec<Rgb>,
+    ) -> Self {
         let mean: Vec<Rgb> = mesh
             .elements
             .iter()
             .zip(light.direct.iter().zip(&light.indirect))
-            .map(|(element, (direct, indirect))| {
-                mesh[element.patch].reflectance * (direct + indirect)
-            })
+            .map(|(element, (direct, indirect))| optics.of(element) * (direct + indirect))
             .collect();
-        let mut sources = Self { spread: vec![0.0; mean.len()], mean, irradiance };
+        let mut sources = Self { optics, spread: vec![0.0; mean.len()], mean, irradiance };
         for index in (0..mesh.elements.len()).rev() {
             sources.spread[index] = sources.deviation(mesh, ElementId(index as u32));
         }
@@ -60,15 +63,21 @@ impl Sources {
     }
 
     /// From the direct light of elements and vertices.
-    pub(super) fn of_direct_light(mesh: &Mesh, light: &ElementLight) -> Self {
-        let direct = |vertex: &Vertex| vertex.direct.unwrap_or_default().irradiance;
-        Self::new(mesh, light, mesh.vertices.iter().map(direct).collect())
+    pub(super) fn of_direct_light(
+        mesh: &Mesh,
+        optics: &'a Optics,
+        vertices: &VertexLight,
+        light: &ElementLight,
+    ) -> Self {
+        let direct = |v: u32| vertices.direct_irradiance(VertexId(v));
+        Self::new(mesh, optics, light, (0..mesh.vertices.len() as u32).map(direct).collect())
     }
 
     /// From the light of all vertices.
-    pub(super) fn of_vertices(mesh: &Mesh) -> Self {
-        let irradiance = mesh.vertices.iter().map(Vertex::irradiance).collect();
-        Self::new(mesh, &ElementLight::of_vertices(mesh), irradiance)
+    pub(super) fn of_vertices(mesh: &Mesh, optics: &'a Optics, light: &VertexLight) -> Self {
+        let numbers = 0..mesh.vertices.len() as u32;
+        let irradiance = numbers.map(|v| light.irradiance(VertexId(v))).collect();
+        Self::new(mesh, optics, &ElementLight::of_vertices(mesh, light), irradiance)
     }
 
     fn deviation(&self, mesh: &Mesh, id: ElementId) -> f64 {
@@ -83,7 +92,7 @@ impl Sources {
     }
 
     fn corners(&self, mesh: &Mesh, element: ElementId) -> SmallVec<[Rgb; 4]> {
-        let reflectance = mesh[mesh[element].patch].reflectance;
+        let reflectance = self.optics.of(&mesh[element]);
         let corners = mesh[element].corners.iter();
         corners.map(|v| reflectance * self.irradiance[v.index()]).collect()
     }
@@ -105,8 +114,8 @@ impl Sources {
     }
 
     /// A leaf as a piece whose mean is the leaf's; the corners say how light varies over it.
-    pub(super) fn piece(&self, mesh: &Mesh, surfaces: &Surfaces, leaf: ElementId) -> Piece {
-        let plane = &surfaces.list[mesh.surface_of(leaf)].plane;
+    pub(super) fn piece(&self, mesh: &Mesh, leaf: ElementId) -> Piece {
+        let plane = mesh.plane(mesh[leaf].patch);
         let (light, mean) = (self.corners(mesh, leaf), self.mean(leaf));
         let around = light.iter().sum::<Rgb>() / light.len() as f64;
         // Nothing becomes negative, and the mean is kept.
@@ -124,14 +133,14 @@ impl Sources {
     ///
     /// Light that is shut in, as between a lamp and the ceiling that it all but touches, makes a small spot hot and the
     /// room no brighter, and the errors that it hides are those of the room.
-    pub(super) fn level(&self, mesh: &Mesh) -> f64 {
+    pub(super) fn level(&self, mesh: &Mesh, light: &VertexLight) -> f64 {
         let area: f64 = mesh.leaves().map(|leaf| mesh[leaf].area).sum();
         let capped = |most: f64| {
             let light = |leaf: ElementId| strength(self.mean(leaf)).min(most) * mesh[leaf].area;
             mesh.leaves().map(light).sum::<f64>() / area.max(f64::MIN_POSITIVE)
         };
         let found = (0..ROUNDS).fold(capped(f64::INFINITY), |level, _| capped(HOT * level));
-        let expected = mean_radiosity(mesh);
+        let expected = mean_radiosity(mesh, self.optics, light);
         expected.min(2.0 * found).max(LEAST * expected)
     }
 

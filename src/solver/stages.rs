@@ -1,20 +1,26 @@
 //! Light on its way: what a solution looks like before reflected light has all been exchanged.
 
-use super::direct_pass::World;
-use super::{Exchange, Observer, Solution, Stop, Work};
+use super::context::Context;
+use super::exchange::Exchange;
+use super::lit::Lit;
+use super::observer::Observer;
+use super::solution::{Solution, Stop};
 use crate::error::Result;
+use crate::light::VertexLight;
 use crate::mesh::Mesh;
 use crate::settings::Settings;
 
 /// The solution after each of these numbers of shots of reflected light, the light still unshot
 /// estimated as ambient; those that the whole exchange does not reach are left out.
 pub(super) fn stages(
-    world: World<'_>,
+    context: Context<'_>,
     settings: &Settings,
-    (mesh, shots): (&Mesh, &[usize]),
+    Lit { mesh, light }: &Lit<'_>,
+    shots: &[usize],
     observer: &mut Observer<'_>,
 ) -> Result<Vec<Solution>> {
-    let emitters = mesh.patches.iter().filter(|patch| patch.exitance.max_element() > 0.0).count();
+    let emitters =
+        context.optics.exitance.iter().filter(|exitance| exitance.max_element() > 0.0).count();
     let mut stages = Vec::new();
     // They are soon made anew, and not steps on the way to the solution.
     let checkpoint = std::mem::take(observer.checkpoint);
@@ -24,12 +30,11 @@ pub(super) fn stages(
             continue;
         }
         let settings = Settings { max_shots: Some(most), ..settings.clone() };
-        let exchange = Exchange::new(world, &settings, mesh, observer)?;
+        let exchange = Exchange::new(context, &settings, mesh, light, observer)?;
         if exchange.stop == Stop::ShotLimit {
-            let mut mesh = mesh.clone();
-            exchange.spread(&mut mesh);
-            let work = Work::new(world.light.lamps(), exchange.factors);
-            stages.push(exchange.solution(mesh, 0, work));
+            let (mesh, mut light) = (Mesh::clone(mesh), VertexLight::clone(light));
+            exchange.spread(&mesh, &mut light);
+            stages.push(exchange.solution(mesh, context.optics.clone(), light));
         }
     }
     *observer.checkpoint = checkpoint;

@@ -6,7 +6,8 @@ use std::time::Duration;
 use super::interpolate::{DIRECT, interpolate};
 use crate::colour::Rgb;
 use crate::direct::PatchLight;
-use crate::mesh::{Direct, Mesh, PatchId, VertexId};
+use crate::light::{Direct, VertexLight};
+use crate::mesh::{Mesh, PatchId, VertexId};
 use crate::watch::{in_batches, within};
 
 /// Time for a rough look at all places: who has ended the work waits.
@@ -22,23 +23,21 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 /// hardly divided by a few rays, all others from those.
 ///
 /// Where even that takes too long, corners have what others of their patch have, or of their surface.
-pub(super) fn make_do(light: &PatchLight, mesh: &mut Mesh) {
+pub(super) fn make_do(lamps: &PatchLight, mesh: &Mesh, light: &mut VertexLight) {
     let mut go_on = within(TIME);
     let corners = mesh.patches.iter().flat_map(|patch| mesh[patch.root].corners.iter().copied());
-    let dark = dark(mesh, corners);
-    look(light, mesh, &dark, &mut go_on);
+    look(lamps, mesh, light, corners, &mut go_on);
     let coarse = mesh.leaves().filter(|&leaf| mesh[leaf].level <= COARSE);
     let middles = coarse.filter_map(|leaf| mesh.find_middle(leaf));
     let places = middles.flat_map(|middle| middle.edges.into_iter().chain([middle.centre]));
-    let dark = self::dark(mesh, places);
-    look(light, mesh, &dark, &mut go_on);
-    borrow(mesh);
-    interpolate(mesh, DIRECT);
+    look(lamps, mesh, light, places, &mut go_on);
+    borrow(mesh, light);
+    interpolate(mesh, light, DIRECT);
 }
 
 /// Those of the vertices whose light is not known, in an order of which any beginning is spread over all.
-fn dark(mesh: &Mesh, vertices: impl Iterator<Item = VertexId>) -> Vec<VertexId> {
-    let mut dark: Vec<VertexId> = vertices.filter(|&v| mesh[v].direct.is_none()).collect();
+fn dark(light: &VertexLight, vertices: impl Iterator<Item = VertexId>) -> Vec<VertexId> {
+    let mut dark: Vec<VertexId> = vertices.filter(|&v| light.direct(v).is_none()).collect();
     dark.sort_unstable();
     dark.dedup();
     let mut order: Vec<(f64, VertexId)> =
@@ -47,44 +46,48 @@ fn dark(mesh: &Mesh, vertices: impl Iterator<Item = VertexId>) -> Vec<VertexId> 
     order.into_iter().map(|(_, vertex)| vertex).collect()
 }
 
-/// Looks roughly at vertices, as long as it may.
+/// Looks roughly at those of the vertices whose light is not known, as long as it may.
 fn look(
-    light: &PatchLight,
-    mesh: &mut Mesh,
-    vertices: &[VertexId],
+    lamps: &PatchLight,
+    mesh: &Mesh,
+    light: &mut VertexLight,
+    vertices: impl Iterator<Item = VertexId>,
     go_on: &mut impl FnMut(f64) -> ControlFlow<()>,
 ) {
+    let dark = dark(light, vertices);
     let at = |(): &mut (), &vertex: &VertexId| {
         let place = (mesh[vertex].site, mesh[mesh[vertex].patch].normal);
         let mut random = fastrand::Rng::with_seed(vertex.index() as u64);
-        light.lamps().rough(light.occluders(), place, || random.f64())
+        lamps.lamps().rough(lamps.occluders(), place, || random.f64())
     };
-    let found: Vec<Direct> = in_batches(vertices, |_| (), at, go_on);
-    for (vertex, direct) in vertices.iter().zip(found) {
-        mesh.vertices[vertex.index()].direct = Some(direct);
+    let found: Vec<Direct> = in_batches(&dark, |_| (), at, go_on);
+    for (&vertex, direct) in dark.iter().zip(found) {
+        light.set_direct(vertex, direct);
     }
 }
 
 /// Gives corners of patches that are still dark the mean of what is known of their patch, else of their surface, else
 /// of all.
-fn borrow(mesh: &mut Mesh) {
+fn borrow(mesh: &Mesh, light: &mut VertexLight) {
     let surfaces = mesh.patches.iter().map(|patch| patch.surface as usize + 1).max().unwrap_or(0);
     let mut by_surface = vec![Mean::default(); surfaces];
     let mut all = Mean::default();
-    for vertex in &mesh.vertices {
-        if let Some(direct) = vertex.direct {
+    for (index, vertex) in mesh.vertices.iter().enumerate() {
+        if let Some(direct) = light.direct(VertexId(index as u32)) {
             by_surface[vertex.surface as usize].add(direct);
             all.add(direct);
         }
     }
     for patch in (0..mesh.patches.len() as u32).map(PatchId) {
-        let corners = mesh[mesh[patch].root].corners.clone();
+        let corners = &mesh[mesh[patch].root].corners;
         let mut own = Mean::default();
-        corners.iter().filter_map(|&v| mesh[v].direct).for_each(|direct| own.add(direct));
+        corners.iter().filter_map(|&v| light.direct(v)).for_each(|direct| own.add(direct));
         let means = [own, by_surface[mesh[patch].surface as usize], all];
         let best = means.iter().find_map(Mean::value).unwrap_or_default();
-        for corner in corners {
-            mesh.vertices[corner.index()].direct.get_or_insert(best);
+        for &corner in corners {
+            if light.direct(corner).is_none() {
+                light.set_direct(corner, best);
+            }
         }
     }
 }

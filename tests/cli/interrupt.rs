@@ -18,8 +18,8 @@ fn sigterm_leaves_a_valid_unfinished_solution() {
     a_signal_leaves_a_valid_unfinished_solution("-TERM");
 }
 
-/// How long it may take to end and to write: little, but on slow machines that do much else.
-const GRACE: Duration = Duration::from_secs(6);
+/// How long it may take to end and to write: a second or two, but far longer on machines that do much else.
+const GRACE: Duration = Duration::from_secs(20);
 
 /// Starts the command and sends it a signal once it has told of something that begins so.
 fn signalled(place: &Place, arguments: &[&str], signal: &str, told: &str) -> Outcome {

@@ -7,6 +7,7 @@ use glam::DVec3;
 use image::{Rgb, RgbImage};
 use radiosity::direct::Lamps;
 use radiosity::form_factor::contour::point_to_polygon;
+use radiosity::light::Optics;
 use radiosity::mesh::Mesh;
 use radiosity::visibility::Occluders;
 use radiosity::{Settings, Surfaces, load, surfaces_of};
@@ -43,7 +44,8 @@ fn an_emission_picture_counts_with_a_colour_picture_and_without() {
     {
         let surfaces = panel(material, faces);
         let mesh = Mesh::new(&surfaces, &Settings::draft());
-        let power: f64 = mesh.patches.iter().map(|patch| patch.exitance.x * patch.area).sum();
+        let exitance = Optics::new(&surfaces, &mesh).exitance;
+        let power: f64 = mesh.patches.iter().zip(exitance).map(|(p, e)| e.x * p.area).sum();
         assert!((power - 20.0 * PI).abs() < 1e-3 * power, "{power} W with {material}, {faces}");
         let (lamps, occluders) = (Lamps::new(&surfaces, &mesh), Occluders::new(&surfaces));
         for x in [-0.8, -0.3, 0.3, 0.8] {

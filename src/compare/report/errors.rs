@@ -202,7 +202,7 @@ impl<'a> Truth<'a> {
         let site = Site { surface, place: (a + b + c) / 3.0, normal };
         let truth = self.sampler.direct(&site).irradiance + self.reflected(&site, mesh, corners);
         let found = middle(mesh, corners, |light| light.direct + light.indirect);
-        let reflectance = solution.mesh[solution.mesh[leaf].patch].reflectance;
+        let reflectance = solution.optics.of(&solution.mesh[leaf]);
         (luminance(reflectance * (found - truth)), (b - a).cross(c - a).length() / 2.0)
     }
 

@@ -18,8 +18,9 @@ impl Shooting<'_, '_> {
     /// a closed room that is all alike.
     pub(in crate::solver) fn ambient(&self) -> Rgb {
         let area = self.area();
-        let share = |patch: &Patch| patch.reflectance * (patch.area / area);
-        let reflectance: Rgb = self.mesh.patches.iter().map(share).sum();
+        let share = |(patch, reflectance): (&Patch, &Rgb)| *reflectance * (patch.area / area);
+        let patches = self.mesh.patches.iter().zip(&self.optics.reflectance);
+        let reflectance: Rgb = patches.map(share).sum();
         self.unshot_power() / area / (Rgb::ONE - reflectance)
     }
 
@@ -64,9 +65,9 @@ impl Shooting<'_, '_> {
     /// By surface, its mean reflectance with all textures.
     fn reflectances_of_surfaces(&self) -> Vec<Rgb> {
         let mut sums = vec![(Rgb::ZERO, 0.0); self.surfaces.list.len()];
-        for patch in &self.mesh.patches {
+        for (patch, &reflectance) in self.mesh.patches.iter().zip(&self.optics.reflectance) {
             let (sum, area) = &mut sums[patch.surface as usize];
-            *sum += patch.reflectance * patch.area;
+            *sum += reflectance * patch.area;
             *area += patch.area;
         }
         sums.into_iter().map(|(sum, area)| sum / area.max(f64::MIN_POSITIVE)).collect()

@@ -12,17 +12,19 @@ mod state;
 
 use serde::{Deserialize, Serialize};
 
-use super::direct_pass::World;
+use super::context::Context;
 use super::energy::Energy;
 use super::glare::glaring;
 use super::groups::Groups;
+use super::observer::Observer;
 use super::relaxation::{Course, Relaxation, Residuals, Step};
+use super::solution::{Phase, Stop};
 use super::sources::Sources;
 use super::transport::{Link, Row};
-use super::{ElementLight, Observer, Phase, Stop};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
 use crate::form_factor::hemicube::{DeltaFactors, Targets, enough_cells};
+use crate::light::{ElementLight, Optics, VertexLight};
 use crate::mesh::{ElementId, Mesh, PatchId};
 use crate::refine::mean_radiosity;
 use crate::settings::Settings;
@@ -49,6 +51,7 @@ pub(super) struct Shooting<'a, 'o> {
     observer: &'a mut Observer<'o>,
     mesh: &'a Mesh,
     surfaces: &'a Surfaces,
+    optics: &'a Optics,
     occluders: &'a Occluders,
     delta: DeltaFactors,
     targets: Targets,
@@ -73,6 +76,8 @@ pub(super) struct Shooting<'a, 'o> {
     released: Vec<Rgb>,
     /// What groups release, if that is not what they hold.
     remembered: Option<Held>,
+    /// What comes straight from emitters; reflected light is not in it yet.
+    pub(super) light: ElementLight,
     /// By element: irradiance by reflected light received at that level, W/m².
     pub(super) received: Vec<Rgb>,
     pub(super) energy: Energy,
@@ -86,26 +91,30 @@ pub(super) struct Shooting<'a, 'o> {
 impl<'a, 'o> Shooting<'a, 'o> {
     /// Books the direct light: emitters have shot, patches hold what they reflect of it.
     pub(super) fn new(
-        mesh: &'a Mesh,
-        world: World<'a>,
+        context: Context<'a>,
         settings: &Settings,
-        (light, observer): (&ElementLight, &'a mut Observer<'o>),
+        mesh: &'a Mesh,
+        vertices: &VertexLight,
+        observer: &'a mut Observer<'o>,
     ) -> Self {
         let _ = observer.tell(Phase::Shooting, 0.0);
-        let World { surfaces, occluders, groups, .. } = world;
-        let direct = |patch: &crate::mesh::Patch| light.direct[patch.root.index()];
-        let members = |group: usize| groups.members(group).iter().map(|&patch| &mesh[patch]);
-        let areas: Vec<f64> =
-            (0..groups.len()).map(|group| members(group).map(|patch| patch.area).sum()).collect();
+        let Context { surfaces, occluders, optics, groups, .. } = context;
+        let light = ElementLight::direct(mesh, vertices);
+        let members = |group: usize| groups.members(group).iter().copied();
+        let areas: Vec<f64> = (0..groups.len())
+            .map(|group| members(group).map(|patch| mesh[patch].area).sum())
+            .collect();
         let unshot = |group: usize| {
-            let mean = |patch: &crate::mesh::Patch| {
-                patch.reflectance * direct(patch) * share(patch.area, areas[group])
+            let mean = |patch: PatchId| {
+                let direct = light.direct[mesh[patch].root.index()];
+                optics.reflectance[patch.index()] * direct * share(mesh[patch].area, areas[group])
             };
             members(group).map(mean).sum()
         };
         let reflectance = |group: usize| {
-            let part =
-                |patch: &crate::mesh::Patch| patch.reflectance * share(patch.area, areas[group]);
+            let part = |patch: PatchId| {
+                optics.reflectance[patch.index()] * share(mesh[patch].area, areas[group])
+            };
             members(group).map(part).sum()
         };
         let reflectances = (0..groups.len()).map(reflectance).collect();
@@ -115,12 +124,17 @@ impl<'a, 'o> Shooting<'a, 'o> {
             observer,
             mesh,
             surfaces,
+            optics,
             occluders,
             delta: DeltaFactors::new(resolution),
             targets: Targets::new(&mesh.patches),
             rows: vec![None; groups.len()],
             groups,
-            glares: glaring(mesh, &Sources::of_direct_light(mesh, light), mean_radiosity(mesh)),
+            glares: glaring(
+                mesh,
+                &Sources::of_direct_light(mesh, optics, vertices, &light),
+                mean_radiosity(mesh, optics, vertices),
+            ),
             kept: 0,
             most_kept: most_kept(settings),
             trees: mesh.trees(),
@@ -135,9 +149,10 @@ impl<'a, 'o> Shooting<'a, 'o> {
             shots: 0,
             hemicubes: 0,
             factors: 0,
+            light,
         };
         shooting.book_emitters();
-        shooting.book_direct_light(world, light);
+        shooting.book_direct_light(context, vertices);
         shooting.energy.unshot = shooting.unshot_power();
         shooting
     }
@@ -207,8 +222,8 @@ impl<'a, 'o> Shooting<'a, 'o> {
     /// Finds the radiosities that a patch's elements release, all levels settled, W/m²; they hold that much less
     /// afterwards.
     fn release_elements(&mut self, patch: PatchId, omega: f64) {
-        let Self { mesh, trees, pending, released, remembered, .. } = self;
-        let (reflectance, tree) = (mesh[patch].reflectance, &trees[patch.index()]);
+        let Self { mesh, optics, trees, pending, released, remembered, .. } = self;
+        let (reflectance, tree) = (optics.reflectance[patch.index()], &trees[patch.index()]);
         released[mesh[patch].root.index()] = Rgb::ZERO;
         for element in tree.iter().map(|element| element.index()) {
             let held = remembered.as_ref().map_or(pending[element], |held| held.pending[element]);

@@ -1,33 +1,33 @@
 //! Rows of the exchange, made when they are needed.
 
 use super::Shooting;
-use crate::colour::Rgb;
+use crate::colour::{Rgb, strength};
 use crate::direct::Sent;
 use crate::form_factor::hemicube::Hemicube;
+use crate::light::VertexLight;
 use crate::mesh::PatchId;
-use crate::refine::strength;
-use crate::solver::ElementLight;
 use crate::solver::arrival::{ERROR, arrival};
-use crate::solver::direct_pass::World;
+use crate::solver::context::Context;
 use crate::solver::transport::{Row, Transport};
 
 impl Shooting<'_, '_> {
     /// What lights at points send out and past all fronts, and what fronts absorb of all direct light.
     ///
     /// Of light from infinitely far, all that arrives is emitted.
-    pub(super) fn book_direct_light(&mut self, world: World<'_>, light: &ElementLight) {
+    pub(super) fn book_direct_light(&mut self, context: Context<'_>, vertices: &VertexLight) {
         let (mesh, surfaces) = (self.mesh, self.surfaces);
         let is_back = |surface: u32| !surfaces.list[surface as usize].two_sided;
         let Sent { emitted, escaped, on_backs } =
-            world.light.lamps().sent_by_points(self.occluders, is_back);
+            context.light.lamps().sent_by_points(self.occluders, is_back);
         self.energy.emitted += emitted;
         self.energy.escaped += escaped;
         self.energy.on_backs += on_backs;
         // Once there has been enough, what the elements know will do.
         let error = if self.observer.flow.is_break() { f64::INFINITY } else { ERROR };
-        let arrival = arrival(world, mesh, (light, error * strength(self.energy.emitted)));
-        for (patch, &received) in mesh.patches.iter().zip(&arrival) {
-            self.energy.absorbed += (Rgb::ONE - patch.reflectance) * received;
+        let error = error * strength(self.energy.emitted);
+        let arrival = arrival(context, mesh, vertices, &self.light, error);
+        for (&reflectance, &received) in self.optics.reflectance.iter().zip(&arrival) {
+            self.energy.absorbed += (Rgb::ONE - reflectance) * received;
         }
         if surfaces.lights.iter().any(|named| named.light.position().is_none()) {
             let elsewhere = self.energy.escaped + self.energy.on_backs;
@@ -40,8 +40,8 @@ impl Shooting<'_, '_> {
     ///
     /// Once there has been enough, what they send past is not known of all of them.
     pub(super) fn book_emitters(&mut self) {
-        let (mesh, groups) = (self.mesh, self.groups);
-        let shines = |patch: &&PatchId| mesh[**patch].exitance.max_element() > 0.0;
+        let (mesh, optics, groups) = (self.mesh, self.optics, self.groups);
+        let shines = |patch: &&PatchId| optics.shines(**patch);
         let emitters: Vec<usize> = (0..groups.len())
             .filter(|&group| groups.members(group).iter().any(|patch| shines(&patch)))
             .collect();
@@ -52,7 +52,7 @@ impl Shooting<'_, '_> {
         for (&emitter, (escaped, on_backs, factors)) in emitters.iter().zip(rows) {
             self.factors += factors;
             for &patch in groups.members(emitter).iter().filter(shines) {
-                let power = mesh[patch].exitance * mesh[patch].area;
+                let power = optics.exitance[patch.index()] * mesh[patch].area;
                 self.energy.emitted += power;
                 self.energy.escaped += power * escaped;
                 self.energy.on_backs += power * on_backs;

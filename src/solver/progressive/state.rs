@@ -4,8 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::{Held, Shooting};
 use crate::colour::Rgb;
+use crate::solver::energy::Energy;
+use crate::solver::observer::Observer;
 use crate::solver::relaxation::Course;
-use crate::solver::{Energy, Observer, Stop};
+use crate::solver::solution::Stop;
 
 /// What shooting has come to: the same, when it is taken up again, as if it had never been left.
 #[derive(Serialize, Deserialize)]

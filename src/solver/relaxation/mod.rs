@@ -20,7 +20,7 @@ mod trend;
 
 use serde::{Deserialize, Serialize};
 
-use super::Stop;
+use super::solution::Stop;
 use crate::colour::Rgb;
 use crate::error::Result;
 use crate::settings::{Method, check_omega};

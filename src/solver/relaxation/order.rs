@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{BATCH, Residuals, Stop};
+use super::{BATCH, Residuals};
 use crate::settings::Method;
+use crate::solver::solution::Stop;
 
 /// The order of a method.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]

@@ -5,7 +5,7 @@ use super::{Course, Criteria, Relaxation, Residuals, Step};
 use crate::colour::Rgb;
 use crate::error::Result;
 use crate::form_factor::FormFactors;
-use crate::solver::Stop;
+use crate::solver::solution::Stop;
 
 /// M B = E with M = I − diag(ρ) F, all channels together.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Residuals, Step};
 use crate::colour::Rgb;
-use crate::solver::Stop;
+use crate::solver::solution::Stop;
 
 /// A residual grown by this factor will not come down again.
 const GROWN: f64 = 1e6;

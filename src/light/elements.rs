@@ -1,5 +1,6 @@
 //! Light on elements, constant over each, at all levels of the trees.
 
+use super::VertexLight;
 use crate::colour::Rgb;
 use crate::mesh::{ElementId, Mesh, Patch, VertexId};
 
@@ -14,17 +15,17 @@ pub struct ElementLight {
 
 impl ElementLight {
     /// Direct light alone, from the vertices.
-    pub fn direct(mesh: &Mesh) -> Self {
-        let leaf = |element| mean_direct(mesh, element);
+    pub fn direct(mesh: &Mesh, light: &VertexLight) -> Self {
+        let leaf = |element| light.mean_direct(mesh, element);
         let direct = pull(mesh, leaf);
         Self { indirect: vec![Rgb::ZERO; direct.len()], direct }
     }
 
     /// All light, from the vertices.
-    pub(super) fn of_vertices(mesh: &Mesh) -> Self {
-        let indirect = |v: VertexId| mesh[v].indirect.unwrap_or_default();
+    pub fn of_vertices(mesh: &Mesh, light: &VertexLight) -> Self {
+        let indirect = |v: VertexId| light.indirect(v).unwrap_or_default();
         Self {
-            direct: pull(mesh, |element| mean_direct(mesh, element)),
+            direct: pull(mesh, |element| light.mean_direct(mesh, element)),
             indirect: pull(mesh, |element| mean(mesh, element, indirect)),
         }
     }
@@ -44,7 +45,7 @@ impl ElementLight {
     /// Lets a little light that is still unshot arrive where such light has arrived before.
     ///
     /// `ambient` is what it would be on every surface, W/m². Places that none has reached stay dark.
-    pub(super) fn scale_to_the_rest(&mut self, mesh: &Mesh, ambient: Rgb) {
+    pub(crate) fn scale_to_the_rest(&mut self, mesh: &Mesh, ambient: Rgb) {
         let area = |patch: &Patch| mesh[patch.root].area;
         let received = |patch: &Patch| self.indirect[patch.root.index()] * area(patch);
         let received: Rgb = mesh.patches.iter().map(received).sum();
@@ -55,7 +56,7 @@ impl ElementLight {
 
     /// Irradiance by reflected light at vertices, W/m², one per vertex: the mean of the leaves
     /// around, by area.
-    pub(super) fn indirect_at_vertices(&self, mesh: &Mesh) -> Vec<Rgb> {
+    pub(crate) fn indirect_at_vertices(&self, mesh: &Mesh) -> Vec<Rgb> {
         let mut sums = vec![(Rgb::ZERO, 0.0); mesh.vertices.len()];
         for leaf in mesh.leaves() {
             let element = &mesh[leaf];
@@ -87,14 +88,16 @@ fn pull(mesh: &Mesh, leaf: impl Fn(ElementId) -> Rgb) -> Vec<Rgb> {
     values
 }
 
-/// Mean direct irradiance of a leaf, W/m².
-pub(super) fn mean_direct(mesh: &Mesh, element: ElementId) -> Rgb {
-    let steep = mesh.steep.get(&element).copied();
-    steep.unwrap_or_else(|| mean(mesh, element, |v| mesh[v].direct.unwrap_or_default().irradiance))
+impl VertexLight {
+    /// Mean direct irradiance of a leaf, W/m².
+    pub(crate) fn mean_direct(&self, mesh: &Mesh, element: ElementId) -> Rgb {
+        let steep = self.steep.get(&element).copied();
+        steep.unwrap_or_else(|| mean(mesh, element, |v| self.direct_irradiance(v)))
+    }
 }
 
 /// Mean over a leaf of what is known at its corners and, it may be, in its middle: by Simpson's rule.
-pub(super) fn mean(mesh: &Mesh, element: ElementId, at: impl Fn(VertexId) -> Rgb) -> Rgb {
+pub(crate) fn mean(mesh: &Mesh, element: ElementId, at: impl Fn(VertexId) -> Rgb) -> Rgb {
     let corners = &mesh[element].corners;
     let mean =
         |values: &[VertexId]| values.iter().map(|&v| at(v)).sum::<Rgb>() / values.len() as f64;

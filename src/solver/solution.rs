@@ -1,0 +1,85 @@
+//! What a solution is, why it ended, and what it tells on the way.
+
+use serde::{Deserialize, Serialize};
+
+use super::energy::Energy;
+use super::relaxation::Step;
+use super::work::Work;
+use crate::colour::Rgb;
+use crate::light::{ElementLight, Optics, VertexLight};
+use crate::mesh::Mesh;
+
+/// A lit mesh, and how it came to be.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// How its patches reflect and emit.
+    pub optics: Optics,
+    /// Light at its vertices.
+    pub vertex_light: VertexLight,
+    /// Light on the elements that there were when reflected light was exchanged, constant over each.
+    pub light: ElementLight,
+    /// Where the emitted power has gone.
+    pub energy: Energy,
+    /// Why the solver stopped.
+    pub stop: Stop,
+    /// Patches that have shot, emitters included and each time counted.
+    pub shots: usize,
+    /// Hemicubes looked through: over patches, and over vertices.
+    pub hemicubes: [usize; 2],
+    /// What was evaluated.
+    pub work: Work,
+    /// Irradiance added for the light still unshot, W/m²; zero when converged.
+    pub ambient: Rgb,
+    /// How the exchange of reflected light converged, patch by patch.
+    pub history: Vec<Step>,
+}
+
+impl Solution {
+    /// Shots of reflected light, those of emitters not counted.
+    pub fn reflected_shots(&self) -> usize {
+        self.history.last().map_or(0, |step| step.shots)
+    }
+}
+
+/// Why a solver stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Stop {
+    /// The unshot power fell below [`Settings::stop`](crate::settings::Settings::stop); of a [`System`](super::relaxation::System), its residual
+    /// below what was asked for.
+    Converged,
+    /// A whole sweep over a [`System`](super::relaxation::System) has changed no radiosity by as much as was
+    /// asked for.
+    Unchanged,
+    /// [`Settings::max_shots`](crate::settings::Settings::max_shots) were fired, or as many rows of a system relaxed.
+    ShotLimit,
+    /// The observer asked for it.
+    Cancelled,
+    /// What is unshot grew a millionfold, or has not come to a new low in a hundred sweeps.
+    Diverged,
+}
+
+/// A step of the work, told to the observer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// What is being done.
+    pub phase: Phase,
+    /// How much of the phase is done, 0..=1.
+    pub done: f64,
+}
+
+/// The passes of a solution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Phase {
+    /// What each patch sees of the lamps.
+    Lamps,
+    /// Direct light, refining the mesh.
+    Direct,
+    /// Lines on which direct light has a kink or a bend.
+    Lines,
+    /// Exchange of reflected light.
+    Shooting,
+    /// Indirect light at vertices.
+    Gathering,
+}
