@@ -4,6 +4,8 @@
 //! file → Scene → Surfaces → Mesh ⇄ direct light, transport ⇄ solver → TriMesh → GLB · picture · page
 //! ```
 //!
+//! The [`guide`] has a page for each task: commands first, what they write, and what to expect. Below is the map of the library.
+//!
 //! | step | what it promises |
 //! |---|---|
 //! | [`load`], or [`Scene::build`] → [`Scene`] | what the file or the code says, every default settled, every repair told in a note |
@@ -21,7 +23,7 @@
 //! The modules, in the order in which data moves; one may use those to its left, never those to its right:
 //!
 //! scene → surface → mesh → visibility → `form_factor` → direct → refine → solver → reconstruct →
-//! lightmap → tone → export, render → page → compare
+//! lightmap → tone → export, render → page → compare → guide
 //!
 //! # Words and units
 //!
@@ -93,6 +95,8 @@ pub mod render;
 pub mod page;
 
 pub mod compare;
+
+pub mod guide;
 
 pub use error::{Error, Result};
 /// The crate of vectors and matrices that positions, colours and transforms are made of, in the version used here.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The library's modules in flow order; those in one entry do not use each other.
-const FLOW: [&[&str]; 19] = [
+const FLOW: [&[&str]; 20] = [
     &["colour"],
     &["error"],
     &["file"],
@@ -24,6 +24,7 @@ const FLOW: [&[&str]; 19] = [
     &["export", "render"],
     &["page"],
     &["compare"],
+    &["guide"],
 ];
 
 /// Longest file, lines.
