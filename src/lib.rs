@@ -23,7 +23,7 @@
 //! The modules, in the order in which data moves; one may use those to its left, never those to its right:
 //!
 //! scene → surface → mesh → visibility → `form_factor` → direct → refine → solver → reconstruct →
-//! lightmap → tone → export, render → page → compare → guide
+//! lightmap → tone → export, render → page → compare
 //!
 //! # Words and units
 //!

@@ -56,6 +56,9 @@ const BARE_ROOM: &str = "mtllib bare-room.mtl\n\
     usemtl floor\nf 4 3 2 1\nusemtl ceiling\nf 5 6 7 8\n\
     usemtl wall\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nusemtl lamp shade\nf 9 10 11 12\n";
 
+/// Stands for all scenes of comparisons, whose pictures take long.
+const SQUARES: &str = "scenes/facing-squares.obj";
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -139,12 +142,18 @@ fn arguments(command: &str) -> Vec<String> {
 
 /// The same with settings that make it a matter of a moment, and small pictures.
 fn quick(mut arguments: Vec<String>) -> Vec<String> {
+    if arguments[0] == "compare" {
+        arguments[1] = SQUARES.to_owned();
+    }
     let has = |name: &str| arguments.iter().any(|word| word == name);
     let mut given = Vec::new();
     match arguments[0].as_str() {
         "solve" => {
             given.extend(QUICK);
-            given.extend(QUICK_ADAPTIVE.iter().filter(|_| !has("--uniform")));
+            match has("--uniform") {
+                true => given.push("--uniform=2"),
+                false => given.extend(QUICK_ADAPTIVE),
+            }
         }
         "compare" => {
             given.extend(QUICK.iter().chain(&QUICK_ADAPTIVE).chain(&QUICK_COMPARISON));
@@ -267,18 +276,14 @@ commands_of! {
     work_plane: "src/guide/work_plane.md",
 }
 
-/// Pieces of lines between backquotes.
-fn code_spans(line: &str) -> impl Iterator<Item = &str> {
-    line.split('`').skip(1).step_by(2)
-}
-
 #[test]
 fn commands_in_sentences_are_run_in_a_block_too_or_are_exceptions() {
     for path in texts() {
         let text = read(&path);
         let (blocks, prose) = parts(&text);
         let in_blocks: Vec<String> = blocks.iter().flat_map(commands).collect();
-        let spans = prose.into_iter().flat_map(code_spans);
+        let prose = prose.join(" ");
+        let spans = prose.split('`').skip(1).step_by(2);
         for span in
             spans.filter(|span| span.starts_with("cargo ") || span.starts_with("radiosity "))
         {

@@ -19,7 +19,7 @@
 //! | know the method | [`method`] |
 //! | know what is new | [`changes`] |
 //!
-//! Commands are as in a checkout of the project, whose `scenes` they light. A test runs all of them.
+//! Commands are as in a checkout of the project, whose `scenes` they light. A test runs them.
 
 /// Where names in links lead in this documentation. Pages end with the same names, for readers of the files
 /// themselves; of two definitions the first counts.
