@@ -4,6 +4,8 @@
 //! file → Scene → Surfaces → Mesh ⇄ direct light, transport ⇄ solver → TriMesh → GLB · picture · page
 //! ```
 //!
+//! The [`guide`] has a page for each task: commands first, what they write, and what to expect. Below is the map of the library.
+//!
 //! | step | what it promises |
 //! |---|---|
 //! | [`load`], or [`Scene::build`] → [`Scene`] | what the file or the code says, every default settled, every repair told in a note |
@@ -95,6 +97,8 @@ pub mod render;
 pub mod page;
 
 pub mod compare;
+
+pub mod guide;
 
 pub use error::{Error, Result};
 /// The crate of vectors and matrices that positions, colours and transforms are made of, in the version used here.

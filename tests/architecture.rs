@@ -25,6 +25,7 @@ const FLOW: [&[&str]; 20] = [
     &["export", "render"],
     &["page"],
     &["compare"],
+    &["guide"],
 ];
 
 /// Longest file, lines.
