@@ -22,6 +22,7 @@
 
 mod base64;
 mod bulk;
+mod chunks;
 pub(crate) mod colour_maps;
 mod data;
 mod document;
