@@ -26,7 +26,8 @@ struct FacetEdge {
 
 /// All surfaces in groups, each of which can be laid flat on the plane of its first.
 pub(super) fn groups(surfaces: &Surfaces, triangulated: &[TriangulatedSurface]) -> Vec<Vec<u32>> {
-    let facets = FacetGraph { surfaces, triangulated, neighbours: neighbours(surfaces, triangulated) };
+    let facets =
+        FacetGraph { surfaces, triangulated, neighbours: neighbours(surfaces, triangulated) };
     let mut is_taken = vec![false; surfaces.list.len()];
     let mut groups = Vec::new();
     for seed in 0..surfaces.list.len() {

@@ -13,9 +13,10 @@
 //! over a network and is not able to: its content security policy forbids it.
 //!
 //! ```
-//! use radiosity::page::{self, html};
+//! use radiosity::page::{self, Fact, html};
 //!
-//! let rows = [("elements", "4 120".to_owned()), ("time", "1.9 s".to_owned())];
+//! let fact = |name, value: &str| Fact { name, value: value.to_owned() };
+//! let rows = [fact("elements", "4 120"), fact("time", "1.9 s")];
 //! let page = page::document("A room", &html! { h1 { "A room" } (page::facts(&rows)) });
 //! assert!(page.into_string().starts_with("<!DOCTYPE html>"));
 //! ```
@@ -42,6 +43,6 @@ pub use image::{columns, picture, thirds};
 pub use maud::{Markup, html};
 pub use model::Model;
 pub use plot::{Axis, Curve, Plot, Stroke, plot};
-pub use table::{Cell, Table, facts, table};
+pub use table::{Cell, Fact, Table, facts, table};
 pub use viewer::{Step, Viewer, viewer};
 pub use wipe::{WipePicture, wipe};
