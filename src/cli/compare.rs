@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
-use radiosity::compare::{self, Comparison, Effort, Plan, Source};
+use radiosity::compare::{self, Comparison, ComparisonPlan, Effort, ReferenceSource};
 use radiosity::{Error, Scene, page};
 use serde_json::{Value, json};
 
@@ -149,24 +149,24 @@ impl Compare {
         interrupt.ending()
     }
 
-    fn plan(&self) -> Result<Plan, Error> {
+    fn plan(&self) -> Result<ComparisonPlan, Error> {
         let effort = self.effort();
         let reference = if self.reference == Path::new("auto") {
-            Source::Traced(effort)
+            ReferenceSource::Traced(effort)
         } else if effort == Effort::default() {
-            Source::File(self.reference.clone())
+            ReferenceSource::File(self.reference.clone())
         } else {
             let message =
                 "a file needs no --budget, --noise or --places; leave them out".to_owned();
             return Err(Error::Setting { name: "reference", message });
         };
-        Ok(Plan {
+        Ok(ComparisonPlan {
             settings: self.method.settings(),
             uniform: self.uniform.clone(),
             adaptive: self.adaptive.clone(),
             reference,
             error: self.error,
-            ..Plan::default()
+            ..ComparisonPlan::default()
         })
     }
 

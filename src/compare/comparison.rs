@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use super::plan::{Plan, Source};
-use super::profile::{Profile, Trace};
+use super::plan::{ComparisonPlan, ReferenceSource};
+use super::profile::{ShadowProfile, Trace};
 use super::reference::Reference;
 use super::run::{Division, Family, Run, TimedSurfaces};
 use super::verdict::Verdict;
@@ -49,7 +49,7 @@ pub struct Comparison {
     /// `None` if a family has no run.
     pub shown: Option<[usize; 2]>,
     /// Across the edge of a shadow, with what the runs to be shown make of it; `None` without such an edge.
-    pub profile: Option<(Profile, [Trace; 2])>,
+    pub profile: Option<(ShadowProfile, [Trace; 2])>,
     /// True if it was stopped before all was done.
     pub interrupted: bool,
 }
@@ -61,7 +61,7 @@ pub struct Comparison {
 /// begun.
 pub fn compare(
     scene: &Scene,
-    plan: &Plan,
+    plan: &ComparisonPlan,
     observe: &mut dyn FnMut(&ComparisonProgress) -> ControlFlow<()>,
 ) -> Result<Comparison> {
     let start = Instant::now();
@@ -72,8 +72,8 @@ pub fn compare(
     plan.validate_for(&surfaces)?;
     let mut observer = Reporter { observe, flow: ControlFlow::Continue(()), runs: 0 };
     let reference = match &plan.reference {
-        Source::File(path) => Reference::load(path, surfaces.extent)?,
-        Source::Traced(effort) => {
+        ReferenceSource::File(path) => Reference::load(path, surfaces.extent)?,
+        ReferenceSource::Traced(effort) => {
             Reference::trace(&surfaces, effort, &mut |done| observer.tell("reference", done))?
         }
     };
@@ -113,7 +113,7 @@ impl Reporter<'_> {
 /// Runs on their way.
 struct Series<'a> {
     scene: TimedSurfaces<'a>,
-    plan: &'a Plan,
+    plan: &'a ComparisonPlan,
     reference: &'a Reference,
     runs: Vec<Run>,
 }
@@ -165,14 +165,14 @@ impl Series<'_> {
         &self,
         shown: [usize; 2],
         observer: &mut Reporter<'_>,
-    ) -> Option<(Profile, [Trace; 2])> {
+    ) -> Option<(ShadowProfile, [Trace; 2])> {
         let paths = self.plan.profile_paths;
         if paths == 0 || observer.flow.is_break() {
             return None;
         }
         let surfaces = self.scene.surfaces;
         let observe = &mut |done| observer.tell("profile", done);
-        let profile = Profile::find(surfaces, self.reference, paths, observe)?;
+        let profile = ShadowProfile::find(surfaces, self.reference, paths, observe)?;
         let trace = |run: usize| Some(profile.trace(surfaces, self.runs[run].lit.as_ref()?));
         let [uniform, adaptive] = shown.map(trace);
         let traces = [uniform?, adaptive?];

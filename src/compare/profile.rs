@@ -44,7 +44,7 @@ const SMOOTH: f64 = 1.5;
 
 /// A straight line on a surface, across the edge of a shadow.
 #[derive(Clone, Debug, Serialize)]
-pub struct Profile {
+pub struct ShadowProfile {
     /// The surface, an index into [`Surfaces::list`].
     pub surface: usize,
     /// Its ends, m.
@@ -96,7 +96,7 @@ struct Transect {
     worth: f64,
 }
 
-impl Profile {
+impl ShadowProfile {
     /// Across the smooth edge of a shadow on a large surface at which most light goes; `None` if there is none, or
     /// `observe`, told of the share done, breaks off.
     pub fn find(

@@ -9,7 +9,7 @@ use serde_json::Value;
 use super::comparison::Comparison;
 use super::reference::{Origin, Reference, Set};
 use super::run::Run;
-use super::score::{Band, Errors};
+use super::score::{Band, ErrorStatistics};
 use crate::error::{Error, Result};
 use crate::file;
 
@@ -163,7 +163,7 @@ fn counts(run: &Run) -> Vec<CsvField> {
     ]
 }
 
-fn errors(band: Band, errors: &Errors) -> Vec<CsvField> {
+fn errors(band: Band, errors: &ErrorStatistics) -> Vec<CsvField> {
     let name = match band {
         Band::All => "all",
         Band::Shadow => "shadow",

@@ -36,7 +36,7 @@ impl Band {
 
 /// Errors over a set of places, as shares of their mean radiosity; places count by their weight, channels alike.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Errors {
+pub struct ErrorStatistics {
     /// How many places.
     pub points: usize,
     /// Mean radiosity of the reference, W/m².
@@ -64,7 +64,7 @@ pub struct Errors {
     pub floor: f64,
 }
 
-impl Errors {
+impl ErrorStatistics {
     /// The root mean square error in per cent, or its floor if it is not resolved, and either in words; `None`
     /// without light.
     pub fn in_percent(&self) -> Option<(f64, String)> {
@@ -79,11 +79,11 @@ impl Errors {
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Score {
     /// Over the area set.
-    pub all: Errors,
+    pub all: ErrorStatistics,
     /// Over the shadow set.
-    pub shadow: Errors,
+    pub shadow: ErrorStatistics,
     /// Over what of the area set is not in the shadow band.
-    pub rest: Errors,
+    pub rest: ErrorStatistics,
     /// Places that no triangle is near; they count as black.
     pub unmatched: usize,
     /// By point of the reference: radiosity of the mesh minus the reference's, W/m².
@@ -93,7 +93,7 @@ pub struct Score {
 
 impl Score {
     /// The errors over one of the sets.
-    pub fn of(&self, band: Band) -> &Errors {
+    pub fn of(&self, band: Band) -> &ErrorStatistics {
         match band {
             Band::All => &self.all,
             Band::Shadow => &self.shadow,
@@ -141,7 +141,7 @@ struct Weighted {
     weight: f64,
 }
 
-fn errors(deviations: &[Deviation<'_>]) -> Errors {
+fn errors(deviations: &[Deviation<'_>]) -> ErrorStatistics {
     let points = deviations.iter().map(|deviation| deviation.point);
     let total: f64 = points.map(|point| point.weight).sum();
     let share = |point: &Point| point.weight / total;
@@ -151,7 +151,7 @@ fn errors(deviations: &[Deviation<'_>]) -> Errors {
     };
     let mean = mean_of(&|point, _| grey(point.radiosity));
     if deviations.is_empty() || mean <= 0.0 {
-        return Errors { points: deviations.len(), ..Errors::default() };
+        return ErrorStatistics { points: deviations.len(), ..ErrorStatistics::default() };
     }
     let square = mean_of(&|_, d| grey(d * d));
     let variance = mean_of(&|point, _| grey(point.error * point.error));
@@ -166,7 +166,7 @@ fn errors(deviations: &[Deviation<'_>]) -> Errors {
         |d: &Deviation<'_>| Weighted { value: grey(d.excess.abs()) / mean, weight: share(d.point) };
     let mut sizes: Vec<Weighted> = deviations.iter().map(size).collect();
     sizes.sort_by(|a, b| a.value.total_cmp(&b.value));
-    Errors {
+    ErrorStatistics {
         points: deviations.len(),
         mean,
         rmse,

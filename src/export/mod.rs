@@ -10,6 +10,13 @@
 //! are the light that the picture is multiplied by, which is brightened if it is dark, so that the
 //! product is what our own pictures show; a PLY has no pictures and shows their mean.
 //! [`save_lightmap`] writes light as a picture instead, and the GLB that it fits on.
+//!
+//! | what | where |
+//! |---|---|
+//! | what every file says | `exposed` colours, a `stamp`, a `group` for each material, and `picture`s |
+//! | lit meshes | `mesh_file`: `glb`, `obj`, `ply` |
+//! | lightmaps | `lightmap` |
+//! | tables | `factors`, `grid`, `history` |
 
 mod exposed;
 mod group;

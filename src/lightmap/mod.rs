@@ -5,6 +5,14 @@
 //!
 //! A texel holds E/π, W/(m² sr): the radiance that a white diffuse surface there would send on. So
 //! what is seen of a surface is albedo × texel + emission, whatever its albedo's picture.
+//!
+//! | what | where |
+//! |---|---|
+//! | coarse triangles | `coarse` |
+//! | which surfaces share a chart | `grow`, unless they `overlap` |
+//! | charts in a square | `chart`, `pack` |
+//! | both together | `atlas` |
+//! | its light | `bake`, beyond borders `dilate` |
 
 mod atlas;
 mod bake;

@@ -12,6 +12,14 @@
 //! [`document()`] makes a page of them, [`save`] writes it. A page opens from a disk, asks for nothing
 //! over a network and is not able to: its content security policy forbids it.
 //!
+//! | what | where |
+//! |---|---|
+//! | whole pages | `document`, `data` |
+//! | without scripts | `table`, `plot`, `image` |
+//! | with scripts | `wipe`, `viewer` |
+//! | what a viewer shows | `model`: numbers by `quantise` on scales of `bulk` and in `colour_maps`, runs by `textured`, `pictures` |
+//! | as bytes | `chunks`, in `base64` |
+//!
 //! ```
 //! use radiosity::page::{self, Fact, html};
 //!

@@ -2,6 +2,18 @@
 //!
 //! Nothing downstream asks where a value came from: positions are metres with Y up, colours are
 //! linear, emission is radiance, lights are in watts, texture coordinates have their transforms applied.
+//!
+//! | what | where |
+//! |---|---|
+//! | the scene itself | `model`; `material` with `texels`, `light` with `photometry`, `camera` |
+//! | read from a file | `load` by `options`: `obj`, `gltf`, `stl`, `ply`; their lines are `text`, files that they name are `named` |
+//! | pictures | `texture`, and between texels `mixed` |
+//! | laid in metres, Y up | `up` |
+//! | repaired | `repair`: `weld`, `junctions`, `corners`; of single polygons `polygon`, of many `boxes`; `limits` |
+//! | its sides settled | `orientation`, `daylight`, by `ray_casting` along the directions of a `sequence` |
+//! | made in code | `build` |
+//! | changed by its user | `names`, `adding`, `overrides`, `ies` |
+//! | told of | `notes`, `backdrop` |
 
 mod camera;
 mod light;

@@ -78,10 +78,14 @@ impl<'a> Seed<'a> {
             && other.normals.is_empty()
             && plane_of(scene, other).normal.dot(self.plane.normal) > 0.5
             && corners.iter().all(|&p| self.plane.height(p).abs() <= tolerance)
-            && {
-                let own = Attributes::of(scene, &self.plane, other);
-                corners.iter().all(|&p| self.attributes.are_like(&own, self.plane.flatten(p)))
-            }
+            && self.goes_on_over(scene, other)
+    }
+
+    /// True if what its corners carry goes on over another face.
+    fn goes_on_over(&self, scene: &Scene, other: &Face) -> bool {
+        let theirs = Attributes::of(scene, &self.plane, other);
+        let mut corners = other.corners(&scene.positions).into_iter();
+        corners.all(|p| self.attributes.are_like(&theirs, self.plane.flatten(p)))
     }
 }
 

@@ -1,4 +1,12 @@
 //! Planar polygons of one material, made by joining coplanar neighbours, and where others touch them.
+//!
+//! | what | where |
+//! |---|---|
+//! | the surfaces themselves | `model`, on a `plane` each, with a `tint`; their outlines are `polygon`s |
+//! | from a scene | `build`: `merge` of neighbours, `mask` of pictures with holes, `overlap` and `partial_overlap` of what is `coplanar` |
+//! | how large the scene is | `outliers` |
+//! | where they touch | `contact` |
+//! | what others do with them | `cut` into convex pieces, `weld` of places, the mean of a `picture`, lights by `light_group` |
 
 mod model;
 mod plane;

@@ -37,7 +37,6 @@ impl GltfFile {
             let data = file.buffer(index, &mut blob, notes)?;
             file.buffers.push(data);
         }
-        file.unpack()?;
         Ok(file)
     }
 

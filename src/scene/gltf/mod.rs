@@ -1,4 +1,9 @@
 //! glTF 2.0 and GLB: parsed by the `gltf` crate, every number checked here before it is used.
+//!
+//! | what | where |
+//! |---|---|
+//! | the file | `file`, its `extensions`; what these compress is `packed`; numbers by `accessors` |
+//! | what becomes of it | `materials`, then an `import` by `nodes`: `primitives` in their `pose`, `lights` |
 
 mod accessors;
 mod extensions;
@@ -22,7 +27,8 @@ use crate::error::Result;
 /// Reads the glTF or GLB file at `path` with its buffers and pictures.
 pub(super) fn read(path: &Path, options: &LoadOptions) -> Result<Scene> {
     let mut notes = Vec::new();
-    let file = GltfFile::open(path, &mut notes)?;
+    let mut file = GltfFile::open(path, &mut notes)?;
+    file.unpack()?;
     let mut scene = Scene { files: file.files(), notes, ..Scene::default() };
     let materials = materials::read(&file, &mut scene)?;
     let mut import = GltfImport::new(&file, scene, materials.mappings);
