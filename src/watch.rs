@@ -138,12 +138,18 @@ pub(crate) fn in_batches<T: Sync, S, R: Send>(
 }
 
 /// What `work` makes of each item, all threads at it; none of those that there has been enough for.
-fn all_of<T: Sync, S, R: Send>(
+fn all_of<T, S, R, Tool, Work>(
     items: &[T],
     enough: &Enough,
-    tool: &(impl Fn(&Enough) -> S + Sync + Send),
-    work: &(impl Fn(&mut S, &T) -> R + Sync + Send),
-) -> Vec<Option<R>> {
+    tool: &Tool,
+    work: &Work,
+) -> Vec<Option<R>>
+where
+    T: Sync,
+    R: Send,
+    Tool: Fn(&Enough) -> S + Sync + Send,
+    Work: Fn(&mut S, &T) -> R + Sync + Send,
+{
     let one = |tool: &mut S, item: &T| {
         let result = (!enough.is_said()).then(|| work(tool, item));
         // What was broken off on the way is not whole.

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use radiosity::TriMesh;
 use radiosity::colour::Rgb;
 use radiosity::page::{
-    self, Cell, Markup, Model, Step, Table, Viewer, WipePicture, columns, facts, html,
+    self, Cell, Fact, Markup, Model, Step, Table, Viewer, WipePicture, columns, facts, html,
 };
 use radiosity::reconstruct::Part;
 use radiosity::scene::{Camera, Sampler, Texture, Wrap};
@@ -68,7 +68,7 @@ fn everything(text: &str) -> String {
         (columns(&[viewer(&[step(text, model)], text), page::picture(PNG, text, text)]))
         (page::wipe(&[picture, picture, picture], text))
         (page::table(&Table { caption: text, header: &[text, "n"], rows, file: text }))
-        (facts(&[(text, text.to_owned())]))
+        (facts(&[Fact { name: text, value: text.to_owned() }]))
         (page::data("data", &json!({ text: [text, 1.5] })))
     };
     page::document(text, &body).into_string()

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
-use radiosity::compare::{self, Comparison, Effort, Plan, Source};
+use radiosity::compare::{self, Comparison, ComparisonPlan, Effort, ReferenceSource};
 use radiosity::{Error, Scene, page};
 use serde_json::{Value, json};
 
@@ -19,7 +19,7 @@ use super::options::{
 use super::outputs;
 use super::outputs::Outputs;
 use super::record::SettingsRecord;
-use super::report::{self, Subject};
+use super::report::{self, ReportSubject};
 use super::streams::Streams;
 
 /// Solve a scene on uniform and on adaptive meshes and say which is worth its cost
@@ -149,24 +149,24 @@ impl Compare {
         interrupt.ending()
     }
 
-    fn plan(&self) -> Result<Plan, Error> {
+    fn plan(&self) -> Result<ComparisonPlan, Error> {
         let effort = self.effort();
         let reference = if self.reference == Path::new("auto") {
-            Source::Traced(effort)
+            ReferenceSource::Traced(effort)
         } else if effort == Effort::default() {
-            Source::File(self.reference.clone())
+            ReferenceSource::File(self.reference.clone())
         } else {
             let message =
                 "a file needs no --budget, --noise or --places; leave them out".to_owned();
             return Err(Error::Setting { name: "reference", message });
         };
-        Ok(Plan {
+        Ok(ComparisonPlan {
             settings: self.method.settings(),
             uniform: self.uniform.clone(),
             adaptive: self.adaptive.clone(),
             reference,
             error: self.error,
-            ..Plan::default()
+            ..ComparisonPlan::default()
         })
     }
 
@@ -198,7 +198,7 @@ impl Compare {
     fn divert(&mut self) -> Result<Streams, Error> {
         let mut streams = Streams::default();
         let tables = self.csv.iter_mut().chain(&mut self.figures).chain(&mut self.save_reference);
-        streams.divert(self.output.iter_mut().chain(tables), (&self.writing, self.report.json))?;
+        streams.divert(self.output.iter_mut().chain(tables), &self.writing, self.report.json)?;
         Ok(streams)
     }
 
@@ -226,7 +226,7 @@ impl Compare {
         let about = self.about(settings);
         if let Some(output) = &self.output {
             let path = &self.scene.path;
-            let subject = Subject { path, scene, comparison, settings, about: &about };
+            let subject = ReportSubject { path, scene, comparison, settings, about: &about };
             report::write(&subject, output)?;
         }
         for path in [&self.csv, &self.figures].into_iter().flatten() {

@@ -28,7 +28,7 @@ pub(crate) fn merged(
     let Some(subcommand) = command.find_subcommand(name) else {
         return Ok(arguments);
     };
-    let file = File { subcommand, given, path, text: read(path)? };
+    let file = ConfigFile { subcommand, given, path, text: read(path)? };
     let added = file.arguments().map_err(Failure::Usage)?;
     // After the program's and the subcommand's name.
     arguments.splice(2..2, added.into_iter().map(OsString::from));
@@ -40,14 +40,14 @@ fn read(path: &Path) -> Result<String, Failure> {
 }
 
 /// A configuration file, and what it may say.
-struct File<'a> {
+struct ConfigFile<'a> {
     subcommand: &'a Command,
     given: &'a ArgMatches,
     path: &'a Path,
     text: String,
 }
 
-impl File<'_> {
+impl ConfigFile<'_> {
     /// What the file says, as arguments, without what the command line says otherwise.
     fn arguments(&self) -> Result<Vec<String>, Error> {
         let parsed: Result<BTreeMap<Spanned<String>, Value>, _> = toml::from_str(&self.text);

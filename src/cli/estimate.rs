@@ -28,14 +28,14 @@ const FEW_SURFACES: usize = 3;
 
 /// What a solution will be made of.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Estimate {
+pub(crate) struct CostEstimate {
     /// All but elements.
     needs: Needs,
     /// Fewest and most elements.
     elements: [usize; 2],
 }
 
-impl Estimate {
+impl CostEstimate {
     /// Of what is needed before there are patches, and what becomes of `surfaces`.
     pub(crate) fn new(surfaces: &Surfaces, settings: &Settings, needs: Needs) -> Self {
         let counts = patch_counts(surfaces, settings);
@@ -77,7 +77,7 @@ impl Estimate {
     }
 }
 
-impl Display for Estimate {
+impl Display for CostEstimate {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let patches = self.needs.patches;
         let elements = match self.elements {

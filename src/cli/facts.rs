@@ -71,8 +71,8 @@ impl Facts {
                 surfaces.extent
             ));
         }
-        let shown = shown(scene.materials.len(), surfaces, mesh);
-        let material = |(material, shown)| MaterialFacts::new(scene, material, shown);
+        let totals = totals(scene.materials.len(), surfaces, mesh);
+        let material = |(material, totals)| MaterialFacts::new(scene, material, totals);
         Self {
             scene: path,
             faces: scene.faces.len(),
@@ -81,7 +81,7 @@ impl Facts {
             contact_lines: surfaces.list.iter().map(|surface| surface.contacts.len()).sum(),
             patches: mesh.patches.len(),
             bounds: [low.to_array(), high.to_array()],
-            materials: scene.materials.iter().zip(shown).map(material).collect(),
+            materials: scene.materials.iter().zip(totals).map(material).collect(),
             lights: scene.lights.iter().map(LightFacts::from).collect(),
             cameras: scene.cameras.iter().map(CameraRecord::from).collect(),
             notes,
@@ -90,7 +90,8 @@ impl Facts {
 }
 
 impl MaterialFacts {
-    fn new(scene: &Scene, material: &Material, (area, power): (f64, Rgb)) -> Self {
+    fn new(scene: &Scene, material: &Material, totals: Totals) -> Self {
+        let Totals { area, power } = totals;
         let texture = |index: Option<u32>| Some(scene.textures.get(index? as usize)?.name.clone());
         Self {
             name: material.name.clone(),
@@ -106,15 +107,24 @@ impl MaterialFacts {
     }
 }
 
-/// By material: the area of its surfaces, m², and the power that they emit, W.
-fn shown(materials: usize, surfaces: &Surfaces, mesh: &Mesh) -> Vec<(f64, Rgb)> {
-    let mut shown = vec![(0.0, Rgb::ZERO); materials];
+/// Of the surfaces of a material together.
+#[derive(Clone, Copy, Default)]
+struct Totals {
+    /// m².
+    area: f64,
+    /// What they emit, W.
+    power: Rgb,
+}
+
+/// By material.
+fn totals(materials: usize, surfaces: &Surfaces, mesh: &Mesh) -> Vec<Totals> {
+    let mut totals = vec![Totals::default(); materials];
     for (patch, exitance) in mesh.patches.iter().zip(Optics::new(surfaces, mesh).exitance) {
-        let (area, power) = &mut shown[surfaces.list[patch.surface as usize].material as usize];
-        *area += patch.area;
-        *power += exitance * patch.area;
+        let own = &mut totals[surfaces.list[patch.surface as usize].material as usize];
+        own.area += patch.area;
+        own.power += exitance * patch.area;
     }
-    shown
+    totals
 }
 
 impl From<&NamedLight> for LightFacts {

@@ -39,7 +39,7 @@ const RAYS: u32 = 65_536;
 /// --time-limit end the work early: the rows that are done are written, the others are empty, and the exit code is 3.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub(crate) struct FormFactors {
+pub(crate) struct FormFactorsCommand {
     #[command(flatten)]
     scene: SceneOptions,
 
@@ -51,8 +51,8 @@ pub(crate) struct FormFactors {
     writing: WritingOptions,
 
     /// How to find what is hidden; where nothing is, all methods use the exact formula
-    #[arg(long, value_enum, default_value_t = Method::Contour)]
-    method: Method,
+    #[arg(long, value_enum, default_value_t = AssemblyMethod::Contour)]
+    method: AssemblyMethod,
 
     /// Longest side of a patch, in metres (default: 1/14 of the scene)
     #[arg(long, value_name = "METRES", value_parser = values::number)]
@@ -89,7 +89,7 @@ Examples:
   radiosity form-factors scenes/blocker.obj --at 0,0,0,0,1,0 --patch-size 9 -o sky.csv";
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Method {
+enum AssemblyMethod {
     /// Sums over the cells of hemicubes
     Hemicube,
     /// Exactly: occluders are cut out, and the rest integrated
@@ -98,10 +98,10 @@ enum Method {
     Rays,
 }
 
-impl FormFactors {
+impl FormFactorsCommand {
     pub(crate) fn run(mut self) -> Result<(), Failure> {
         let mut streams = Streams::default();
-        streams.divert(&mut self.output, (&self.writing, self.report.json))?;
+        streams.divert(&mut self.output, &self.writing, self.report.json)?;
         let (settings, method) = (self.settings()?, self.method()?);
         let outputs = Outputs { files: self.output.clone(), force: self.writing.force };
         outputs.check(&self.scene.files(), &[])?;
@@ -136,7 +136,7 @@ impl FormFactors {
         meter.end();
         streams.deliver()?;
         match (self.report.json, self.report.talk.quiet) {
-            (true, _) => console::print_json(&Outcome {
+            (true, _) => console::print_json(&EnclosureFigures {
                 finished: interrupt.is_whole(),
                 scene: self.scene.path,
                 enclosure: &enclosure,
@@ -163,10 +163,10 @@ impl FormFactors {
 
     fn method(&self) -> Result<form_factor::Method, Error> {
         let refused = |name, message: String| Err(Error::Setting { name, message });
-        if self.rays.is_some() && !matches!(self.method, Method::Rays) {
+        if self.rays.is_some() && !matches!(self.method, AssemblyMethod::Rays) {
             return refused("rays", "are those of --method rays; say that, too".to_owned());
         }
-        if self.hemicube_resolution.is_some() && !matches!(self.method, Method::Hemicube) {
+        if self.hemicube_resolution.is_some() && !matches!(self.method, AssemblyMethod::Hemicube) {
             let message = "is that of --method hemicube; say that, too".to_owned();
             return refused("hemicube-resolution", message);
         }
@@ -180,9 +180,9 @@ impl FormFactors {
             return refused("at", message);
         }
         Ok(match self.method {
-            Method::Hemicube => form_factor::Method::Hemicube(self.cells()),
-            Method::Contour => form_factor::Method::Contour,
-            Method::Rays => form_factor::Method::Rays(rays),
+            AssemblyMethod::Hemicube => form_factor::Method::Hemicube(self.cells()),
+            AssemblyMethod::Contour => form_factor::Method::Contour,
+            AssemblyMethod::Rays => form_factor::Method::Rays(rays),
         })
     }
 
@@ -193,7 +193,7 @@ impl FormFactors {
 
 /// A matrix in figures, with what the command knows beside it.
 #[derive(Debug, Serialize)]
-struct Outcome<'a> {
+struct EnclosureFigures<'a> {
     finished: bool,
     scene: PathBuf,
     #[serde(flatten)]

@@ -47,26 +47,37 @@ pub(crate) struct GridFigures {
 }
 
 impl GridOptions {
-    /// Its places, found before long work.
-    pub(crate) fn places(&self, surfaces: &Surfaces) -> Result<Vec<(DVec3, DVec3)>, Error> {
-        self.grid.map_or_else(|| Ok(Vec::new()), |plane| plane.places(surfaces))
+    /// Its places, found before long work, if it is asked for.
+    pub(crate) fn plan(&self, surfaces: &Surfaces) -> Result<Option<PlannedGrid>, Error> {
+        let Some(plane) = self.grid else { return Ok(None) };
+        let places = plane.places(surfaces)?;
+        Ok(Some(PlannedGrid { plane, places, csv: self.grid_csv.clone() }))
     }
+}
 
+/// A grid without light yet.
+#[derive(Debug)]
+pub(crate) struct PlannedGrid {
+    plane: WorkPlane,
+    /// Each with the normal of the plane.
+    places: Vec<(DVec3, DVec3)>,
+    csv: Option<PathBuf>,
+}
+
+impl PlannedGrid {
     /// Reads the grid off a solution and writes it.
     pub(crate) fn read(
         &self,
-        places: &[(DVec3, DVec3)],
         Solved { surfaces, settings, solution }: Solved<'_>,
         interrupt: &Interrupt,
         meter: &mut Meter,
     ) -> Result<Option<GridFigures>, Error> {
-        let Some(plane) = self.grid else { return Ok(None) };
         meter.begin("grid");
-        let readings = read(surfaces, (settings, solution), places, |done| {
+        let readings = read(surfaces, (settings, solution), &self.places, |done| {
             meter.advance("grid", done);
             interrupt.flow()
         });
-        if let Some(path) = &self.grid_csv {
+        if let Some(path) = &self.csv {
             save_grid(&readings, path)?;
         }
         if readings.is_empty() {
@@ -75,7 +86,7 @@ impl GridOptions {
         let evenness = Evenness::of(&readings);
         let uniformity = evenness.uniformity();
         let (Evenness { mean, min, max }, places) = (evenness, readings.len());
-        let WorkPlane { height, spacing } = plane;
+        let WorkPlane { height, spacing } = self.plane;
         Ok(Some(GridFigures { height, spacing, places, mean, min, max, uniformity }))
     }
 }

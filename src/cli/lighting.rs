@@ -56,21 +56,21 @@ pub(crate) struct Lighting<'a> {
 
 /// What came of it.
 #[derive(Debug)]
-pub(crate) struct Lit {
+pub(crate) struct LitScene {
     pub(crate) solution: Solution,
     pub(crate) stages: Vec<Solution>,
     pub(crate) mesh: TriMesh,
 }
 
 impl Lighting<'_> {
-    pub(crate) fn run(self, interrupt: &Interrupt, meter: &mut Meter) -> Result<Lit> {
+    pub(crate) fn run(self, interrupt: &Interrupt, meter: &mut Meter) -> Result<LitScene> {
         match &self.relight.relightable {
             None => self.together(interrupt, meter),
             Some(patterns) => self.apart(patterns, interrupt, meter),
         }
     }
 
-    fn together(self, interrupt: &Interrupt, meter: &mut Meter) -> Result<Lit> {
+    fn together(self, interrupt: &Interrupt, meter: &mut Meter) -> Result<LitScene> {
         let Self { surfaces, settings, stages, .. } = self;
         let (solution, stages) = self.kept(surfaces, interrupt, meter, |checkpoint, observe| {
             let plan = Plan { stages, checkpoint: Some(checkpoint) };
@@ -78,10 +78,15 @@ impl Lighting<'_> {
         })?;
         meter.begin("triangles");
         let mesh = reconstruct(surfaces, &solution);
-        Ok(Lit { solution, stages, mesh })
+        Ok(LitScene { solution, stages, mesh })
     }
 
-    fn apart(self, patterns: &[String], interrupt: &Interrupt, meter: &mut Meter) -> Result<Lit> {
+    fn apart(
+        self,
+        patterns: &[String],
+        interrupt: &Interrupt,
+        meter: &mut Meter,
+    ) -> Result<LitScene> {
         let Self { surfaces, settings, .. } = self;
         let groups = surfaces.light_groups(patterns);
         check_count(groups.len())?;
@@ -94,7 +99,7 @@ impl Lighting<'_> {
         let parts = groups.into_iter().zip(scenes).zip(parts);
         let parts = parts.map(|((group, (surfaces, _)), part)| (group, surfaces, part));
         let mesh = reconstruct_by_light(surfaces, &solution, parts);
-        Ok(Lit { solution, stages: Vec::new(), mesh })
+        Ok(LitScene { solution, stages: Vec::new(), mesh })
     }
 
     /// Does `work` on a `subject` with its checkpoint.

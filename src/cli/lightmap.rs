@@ -50,27 +50,41 @@ impl LightmapOptions {
         self.lightmap.map_or(0, |size| u64::from(size).pow(2))
     }
 
-    /// The place of every surface in the maps, found before long work.
-    pub(crate) fn atlas(&self, surfaces: &Surfaces) -> Result<Option<Atlas>> {
-        self.lightmap.map(|size| Atlas::new(surfaces, size)).transpose()
+    /// The place of every surface in the maps, found before long work, if they are asked for.
+    pub(crate) fn plan(
+        &self,
+        surfaces: &Surfaces,
+        outputs: &[PathBuf],
+    ) -> Result<Option<PlannedLightmap>> {
+        let Some((size, path)) = self.lightmap.zip(self.path(outputs)) else {
+            return Ok(None);
+        };
+        Ok(Some(PlannedLightmap { atlas: Atlas::new(surfaces, size)?, path }))
     }
+}
 
-    /// Writes the files, if they are asked for.
+/// A lightmap without light yet.
+#[derive(Debug)]
+pub(crate) struct PlannedLightmap {
+    atlas: Atlas,
+    path: PathBuf,
+}
+
+impl PlannedLightmap {
+    /// Writes the files of it with the light of a solution.
     pub(crate) fn write(
         &self,
-        (atlas, outputs): (Option<&Atlas>, &[PathBuf]),
         subject: &Subject<'_>,
         stamp: &Stamp,
         meter: &mut Meter,
     ) -> Result<()> {
-        let wanted = self.path(outputs).zip(atlas).zip(subject.solved);
-        let Some(((path, atlas), Solved { surfaces, solution, .. })) = wanted else {
+        let Some(Solved { surfaces, solution, .. }) = subject.solved else {
             return Ok(());
         };
         meter.begin("lightmap");
-        let map = bake(surfaces, atlas, solution, subject.mesh);
-        save_lightmap(&map, subject.mesh, &path, stamp)?;
-        let (charts, density) = (atlas.charts.len(), atlas.density);
+        let map = bake(surfaces, &self.atlas, solution, subject.mesh);
+        save_lightmap(&map, subject.mesh, &self.path, stamp)?;
+        let (charts, density) = (self.atlas.charts.len(), self.atlas.density);
         meter.tell(&format!("lightmap of {charts} charts, {density:.1} texels to a metre"));
         Ok(())
     }

@@ -20,6 +20,7 @@ mod meter;
 mod options;
 mod outputs;
 mod page;
+mod pictures;
 mod record;
 mod relight;
 mod render;
@@ -62,7 +63,7 @@ enum Command {
     Render(render::Render),
     Relight(relight::Relight),
     Compare(Box<compare::Compare>),
-    FormFactors(form_factors::FormFactors),
+    FormFactors(form_factors::FormFactorsCommand),
     Info(info::Info),
     #[command(hide = true)]
     Generate(generate::Generate),

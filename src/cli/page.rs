@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use radiosity::page::{self, Cell, Markup, Model, Step, Table, Viewer, html};
-use radiosity::render::{Display, Solved, Subject, View, png};
+use radiosity::page::{self, Cell, Fact, Markup, Model, Step, Table, Viewer, html};
+use radiosity::render::{Display, Solved, Subject, View, png, render_solved};
 use radiosity::scene::Camera;
 use radiosity::{Result, Scene, Solution, TriMesh, reconstruct};
 
@@ -36,7 +36,7 @@ pub(crate) struct PageOptions {
 
 /// What a page tells of a solution.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Account<'a> {
+pub(crate) struct SolutionPage<'a> {
     pub(crate) path: &'a Path,
     pub(crate) scene: &'a Scene,
     pub(crate) mesh: &'a TriMesh,
@@ -67,7 +67,7 @@ impl PageOptions {
     /// Writes the page, if one is asked for.
     pub(crate) fn write(
         &self,
-        account: &Account<'_>,
+        account: &SolutionPage<'_>,
         options: &PictureOptions,
         interrupt: &Interrupt,
         meter: &mut Meter,
@@ -88,7 +88,8 @@ impl PageOptions {
         steps.push(last_step(account));
         let subject = Subject { mesh: account.mesh, solved: Some(account.solved) };
         let lights = &account.solved.surfaces.lights;
-        let mut picture = options.picture(View::Light, subject, (account.camera, lights), |done| {
+        let drawing = options.drawing(View::Light, lights);
+        let mut picture = render_solved(subject, account.camera, &drawing, |done| {
             meter.advance("page", done);
             interrupt.flow()
         });
@@ -116,7 +117,7 @@ fn early_step(solved: &Solved<'_>, stage: &Solution) -> Step {
     Step { label, model: Model::of_solution(&mesh, &stage.mesh) }
 }
 
-fn last_step(account: &Account<'_>) -> Step {
+fn last_step(account: &SolutionPage<'_>) -> Step {
     let model = Model::of_solution(account.mesh, &account.solved.solution.mesh);
     Step { label: format!("end: {}", account.summary.stop), model }
 }
@@ -125,8 +126,8 @@ fn title(path: &Path) -> String {
     path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-fn body(account: &Account<'_>, viewer: &Viewer<'_>, seconds: &[Timing]) -> Markup {
-    let Account { path, scene, summary, .. } = account;
+fn body(account: &SolutionPage<'_>, viewer: &Viewer<'_>, seconds: &[Timing]) -> Markup {
+    let SolutionPage { path, scene, summary, .. } = account;
     let total: f64 = seconds.iter().map(|timing| timing.seconds).sum();
     html! {
         h1 { (title(path)) }
@@ -146,9 +147,9 @@ fn body(account: &Account<'_>, viewer: &Viewer<'_>, seconds: &[Timing]) -> Marku
     }
 }
 
-fn facts(account: &Account<'_>) -> Vec<(&'static str, String)> {
-    let Account { path, summary, settings, .. } = account;
-    vec![
+fn facts(account: &SolutionPage<'_>) -> [Fact<'static>; 8] {
+    let SolutionPage { path, summary, settings, .. } = account;
+    [
         ("Scene", path.display().to_string()),
         ("Surfaces", format!("{}, {} patches", summary.surfaces, summary.patches)),
         ("Elements", format!("{}, {} of them leaves", summary.elements, summary.leaves)),
@@ -158,6 +159,7 @@ fn facts(account: &Account<'_>) -> Vec<(&'static str, String)> {
         ("Settings", settings.to_string()),
         ("Made by", concat!("radiosity ", env!("CARGO_PKG_VERSION")).to_owned()),
     ]
+    .map(|(name, value)| Fact { name, value })
 }
 
 fn energy(summary: &Summary, photometric: bool) -> Markup {

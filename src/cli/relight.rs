@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 use radiosity::colour::Rgb;
 use radiosity::reconstruct::{Dimming, LightShare};
+use radiosity::render::{self, Subject};
 use radiosity::scene::NamedLight;
 use radiosity::surface::LightGroup;
-use radiosity::{Error, export, render};
+use radiosity::{Error, export};
 use serde_json::json;
 
 use super::console;
@@ -16,8 +17,8 @@ use super::interrupt::Interrupt;
 use super::meter::Meter;
 use super::options::{Elsewhere, PictureOptions, ReportOptions, WritingOptions};
 use super::outputs::Outputs;
+use super::pictures::Pictures;
 use super::record::{cameras, keep_lights, lights};
-use super::render::draw;
 use super::streams::Streams;
 
 /// Dim and colour the lights of a solved GLB, without solving again
@@ -93,8 +94,14 @@ impl Relight {
         }
         if !self.image.is_empty() {
             meter.begin("picture");
-            let pictures = (&self.picture, self.image.as_slice());
-            draw((&mesh, &sky), pictures, (&camera, &stamp), (&interrupt, &mut meter))?;
+            let pictures = Pictures {
+                subject: Subject { mesh: &mesh, solved: None },
+                sky: &sky,
+                camera: &camera,
+                exposure,
+                finished: stamp.finished,
+            };
+            pictures.write(&self.picture, &self.image, &interrupt, &mut meter)?;
         }
         streams.deliver()?;
         let seconds = meter.into_timings();
@@ -124,7 +131,7 @@ impl Relight {
     fn divert(&mut self) -> Result<Streams, Error> {
         let mut streams = Streams::default();
         let all = self.output.iter_mut().chain(&mut self.image);
-        streams.divert(all, (&self.writing, self.report.json))?;
+        streams.divert(all, &self.writing, self.report.json)?;
         Ok(streams)
     }
 

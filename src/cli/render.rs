@@ -3,18 +3,17 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use radiosity::export::Stamp;
+use radiosity::export;
 use radiosity::render::{self, Subject};
-use radiosity::scene::{Camera, NamedLight};
-use radiosity::{TriMesh, export};
 use serde_json::json;
 
 use super::console;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::meter::Meter;
-use super::options::{Elsewhere, PictureOptions, ReportOptions, WritingOptions, display};
+use super::options::{Elsewhere, PictureOptions, ReportOptions, WritingOptions};
 use super::outputs::Outputs;
+use super::pictures::Pictures;
 use super::record::{CameraRecord, cameras, lights};
 use super::streams::Streams;
 
@@ -52,7 +51,7 @@ Examples:
 impl Render {
     pub(crate) fn run(mut self) -> Result<(), Failure> {
         let mut streams = Streams::default();
-        streams.divert(&mut self.output, (&self.writing, self.report.json))?;
+        streams.divert(&mut self.output, &self.writing, self.report.json)?;
         let outputs = Outputs { files: self.output.clone(), force: self.writing.force };
         outputs.check(std::slice::from_ref(&self.path), &[])?;
         self.output.iter().try_for_each(|path| render::check_writable(path))?;
@@ -63,7 +62,7 @@ impl Render {
         let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
-        let (mesh, mut stamp) = export::load_solved(&self.path)?;
+        let (mesh, stamp) = export::load_solved(&self.path)?;
         let choice = self.picture.choose_camera(&cameras(&stamp.settings))?;
         if !stamp.finished {
             meter.tell("the solution was stopped before it was done");
@@ -71,9 +70,15 @@ impl Render {
         let lights = lights(&stamp.settings);
         meter.begin("picture");
         let (camera, exposure) = self.picture.look(&choice, &mesh, stamp.exposure);
-        stamp.exposure = exposure;
-        let pictures = (&self.picture, self.output.as_slice());
-        draw((&mesh, &lights), pictures, (&camera, &stamp), (&interrupt, &mut meter))?;
+        interrupt.worth_writing();
+        let pictures = Pictures {
+            subject: Subject { mesh: &mesh, solved: None },
+            sky: &lights,
+            camera: &camera,
+            exposure,
+            finished: stamp.finished,
+        };
+        pictures.write(&self.picture, &self.output, &interrupt, &mut meter)?;
         streams.deliver()?;
         let camera = CameraRecord::from(&camera);
         let written: Vec<PathBuf> = self.output.iter().map(|path| streams.name(path)).collect();
@@ -92,28 +97,4 @@ impl Render {
         }
         interrupt.ending()
     }
-}
-
-/// Makes pictures of a mesh that was read from a file and the sky behind it.
-pub(crate) fn draw(
-    (mesh, sky): (&TriMesh, &[NamedLight]),
-    (options, paths): (&PictureOptions, &[PathBuf]),
-    (camera, stamp): (&Camera, &Stamp),
-    (interrupt, meter): (&Interrupt, &mut Meter),
-) -> Result<(), Failure> {
-    interrupt.worth_writing();
-    meter.explain(&format!("camera {}", CameraRecord::from(camera)));
-    let display = display(mesh, stamp.exposure);
-    let subject = Subject { mesh, solved: None };
-    for (view, paths) in options.views(paths)? {
-        let mut picture = options.picture(view, subject, (camera, sky), |done| {
-            meter.advance("picture", done);
-            interrupt.flow()
-        });
-        picture.unfinished = !stamp.finished || !interrupt.is_whole();
-        for path in paths {
-            render::save(&picture, path, &display)?;
-        }
-    }
-    Ok(())
 }

@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 
 use radiosity::compare::{self, Account, Comparison};
-use radiosity::page;
+use radiosity::page::{self, Fact};
 use radiosity::render::{Display, automatic_camera, exposure_seen};
 use radiosity::tone::exposure_scale;
 use radiosity::{Error, Result, Scene, TriMesh};
@@ -18,7 +18,7 @@ use super::record::SettingsRecord;
 const ASPECT: f64 = 4.0 / 3.0;
 
 /// What has been compared, and how.
-pub(crate) struct Subject<'a> {
+pub(crate) struct ReportSubject<'a> {
     pub(crate) path: &'a Path,
     pub(crate) scene: &'a Scene,
     pub(crate) comparison: &'a Comparison,
@@ -28,8 +28,8 @@ pub(crate) struct Subject<'a> {
 }
 
 /// Writes the page.
-pub(crate) fn write(subject: &Subject<'_>, output: &Path) -> Result<()> {
-    let Subject { path, scene, comparison, about, .. } = subject;
+pub(crate) fn write(subject: &ReportSubject<'_>, output: &Path) -> Result<()> {
+    let ReportSubject { path, scene, comparison, about, .. } = subject;
     let finest = comparison.shown.and_then(|[_, run]| comparison.runs[run].lit.as_ref());
     let mesh = finest.map(|lit| &lit.mesh);
     let camera = match (scene.cameras.first(), mesh) {
@@ -51,10 +51,10 @@ pub(crate) fn write(subject: &Subject<'_>, output: &Path) -> Result<()> {
     page::save(&compare::report(comparison, &account), output)
 }
 
-fn identity(subject: &Subject<'_>) -> Result<Vec<(&'static str, String)>> {
-    let Subject { path, scene, comparison, settings, .. } = subject;
+fn identity(subject: &ReportSubject<'_>) -> Result<[Fact<'static>; 7]> {
+    let ReportSubject { path, scene, comparison, settings, .. } = subject;
     let emitters = comparison.surfaces.list.iter().filter(|surface| surface.is_emitter()).count();
-    Ok(vec![
+    let facts = [
         ("Scene", format!("{}, SHA-256 {}", path.display(), hash(path)?)),
         (
             "Geometry",
@@ -71,7 +71,8 @@ fn identity(subject: &Subject<'_>) -> Result<Vec<(&'static str, String)>> {
         ("Machine", machine()),
         ("Made", format!("{} by radiosity {}", now(), env!("CARGO_PKG_VERSION"))),
         ("Command", command()),
-    ])
+    ];
+    Ok(facts.map(|(name, value)| Fact { name, value }))
 }
 
 /// Of the scene's file itself; materials and textures beside it are not in it.

@@ -7,21 +7,19 @@ use clap::Args;
 use radiosity::colour::Rgb;
 use radiosity::export::{self, Stamp};
 use radiosity::light::Direct;
-use radiosity::lightmap::Atlas;
 use radiosity::reconstruct::mesh_pictures;
 use radiosity::render::{self, Solved, Subject};
-use radiosity::scene::Camera;
 use radiosity::solver::Stop;
 use radiosity::tone::Exposure;
 use radiosity::{Error, Scene, Settings, Solution, Surfaces, surfaces_of};
 
 use super::console;
-use super::estimate::Estimate;
+use super::estimate::CostEstimate;
 use super::failure::Failure;
 use super::grid::GridOptions;
 use super::interrupt::Interrupt;
-use super::lighting::{Lighting, Lit, RelightOptions};
-use super::lightmap::LightmapOptions;
+use super::lighting::{Lighting, LitScene, RelightOptions};
+use super::lightmap::{LightmapOptions, PlannedLightmap};
 use super::memory::Needs;
 use super::meter::Meter;
 use super::options::{
@@ -29,8 +27,9 @@ use super::options::{
     PictureOptions, ReportOptions, SceneOptions, WritingOptions, display,
 };
 use super::outputs::Outputs;
-use super::page::{Account, PageOptions};
-use super::record::{CameraRecord, SettingsRecord, stamped};
+use super::page::{PageOptions, SolutionPage};
+use super::pictures::Pictures;
+use super::record::{SettingsRecord, stamped};
 use super::streams::Streams;
 use super::summary::{Outcome, Summary};
 
@@ -124,8 +123,8 @@ impl Solve {
         let (mut scene, camera) = self.read(&mut meter)?;
         let needs = self.needs(&scene);
         let surfaces = surfaces(&mut scene, &mut meter);
-        let places = self.grid.places(&surfaces)?;
-        let atlas = self.lightmap.atlas(&surfaces)?;
+        let grid = self.grid.plan(&surfaces)?;
+        let lightmap = self.lightmap.plan(&surfaces, &self.output)?;
         let settings = self.settings(&surfaces, needs, &meter)?;
         let settings_record = SettingsRecord::new(&settings, surfaces.extent);
         let lighting = Lighting {
@@ -135,7 +134,7 @@ impl Solve {
             relight: &self.relight,
             stages: &self.page.stages(),
         };
-        let Lit { solution, stages, mesh } = lighting.run(&interrupt, &mut meter)?;
+        let LitScene { solution, stages, mesh } = lighting.run(&interrupt, &mut meter)?;
         judge(&solution, &meter)?;
 
         let (camera, exposure) = self.picture.look(&camera, &mesh, Exposure::Automatic);
@@ -146,14 +145,22 @@ impl Solve {
         };
         let solved = Solved { surfaces: &surfaces, settings: &settings, solution: &solution };
         let subject = Subject { mesh: &mesh, solved: Some(solved) };
-        self.write_meshes(&subject, atlas.as_ref(), &stamp, &mut meter)?;
-        self.write_pictures(subject, (&camera, exposure), &interrupt, &mut meter)?;
+        self.write_meshes(&subject, lightmap.as_ref(), &stamp, &mut meter)?;
+        if !self.image.is_empty() {
+            meter.begin("picture");
+            let (sky, camera, finished) = (&surfaces.lights, &camera, true);
+            let pictures = Pictures { subject, sky, camera, exposure, finished };
+            pictures.write(&self.picture, &self.image, &interrupt, &mut meter)?;
+        }
         if let Some(path) = &self.history {
             export::save_history(&solution.history, path)?;
         }
-        let grid = self.grid.read(&places, solved, &interrupt, &mut meter)?;
+        let grid = match grid {
+            Some(grid) => grid.read(solved, &interrupt, &mut meter)?,
+            None => None,
+        };
         let mut summary = Summary::new(&surfaces, &solution, &mesh);
-        let account = Account {
+        let account = SolutionPage {
             path: &self.scene.path,
             scene: &scene,
             mesh: &mesh,
@@ -193,7 +200,7 @@ impl Solve {
         let settings = limited(needs);
         settings.validate_for(surfaces.area(), surfaces.extent)?;
         meter.explain(&SettingsRecord::new(&settings, surfaces.extent).to_string());
-        let estimate = Estimate::new(surfaces, &settings, needs);
+        let estimate = CostEstimate::new(surfaces, &settings, needs);
         memory.check_needs(&estimate.least(), "for the patches of the scene")?;
         meter.tell(&estimate.to_string());
         Ok(limited(estimate.least()))
@@ -260,7 +267,7 @@ impl Solve {
         let mut streams = Streams::default();
         let tables = self.history.iter_mut().chain(&mut self.grid.grid_csv);
         let all = self.output.iter_mut().chain(&mut self.image).chain(tables);
-        streams.divert(all.chain(&mut self.page.html), (&self.writing, self.report.json))?;
+        streams.divert(all.chain(&mut self.page.html), &self.writing, self.report.json)?;
         Ok(streams)
     }
 
@@ -300,7 +307,7 @@ impl Solve {
     fn write_meshes(
         &self,
         subject: &Subject<'_>,
-        atlas: Option<&Atlas>,
+        lightmap: Option<&PlannedLightmap>,
         stamp: &Stamp,
         meter: &mut Meter,
     ) -> Result<(), Failure> {
@@ -310,33 +317,8 @@ impl Solve {
         for path in &self.output {
             export::save(subject.mesh, path, stamp)?;
         }
-        self.lightmap.write((atlas, &self.output), subject, stamp, meter)?;
-        Ok(())
-    }
-
-    fn write_pictures(
-        &self,
-        subject: Subject<'_>,
-        (camera, exposure): (&Camera, Exposure),
-        interrupt: &Interrupt,
-        meter: &mut Meter,
-    ) -> Result<(), Failure> {
-        if self.image.is_empty() {
-            return Ok(());
-        }
-        meter.begin("picture");
-        meter.explain(&format!("camera {}", CameraRecord::from(camera)));
-        let display = display(subject.mesh, exposure);
-        let lights = subject.solved.map_or(&[][..], |solved| &solved.surfaces.lights);
-        for (view, paths) in self.picture.views(&self.image)? {
-            let mut picture = self.picture.picture(view, subject, (camera, lights), |done| {
-                meter.advance("picture", done);
-                interrupt.flow()
-            });
-            picture.unfinished |= !interrupt.is_whole();
-            for path in paths {
-                render::save(&picture, path, &display)?;
-            }
+        if let Some(lightmap) = lightmap {
+            lightmap.write(subject, stamp, meter)?;
         }
         Ok(())
     }

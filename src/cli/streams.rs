@@ -24,7 +24,8 @@ impl Streams {
     pub(crate) fn divert<'a>(
         &mut self,
         outputs: impl IntoIterator<Item = &'a mut PathBuf>,
-        (options, json): (&WritingOptions, bool),
+        options: &WritingOptions,
+        json: bool,
     ) -> Result<()> {
         for output in outputs.into_iter().filter(|output| is_stdout(output) || is_stream(output)) {
             let ending = options.format.as_deref().or(output.extension().and_then(|e| e.to_str()));

@@ -5,10 +5,10 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use super::plan::{Plan, Source};
-use super::profile::{Profile, Trace};
+use super::plan::{ComparisonPlan, ReferenceSource};
+use super::profile::{ShadowProfile, Trace};
 use super::reference::Reference;
-use super::run::{Family, Run};
+use super::run::{Division, Family, Run, TimedSurfaces};
 use super::verdict::Verdict;
 use crate::error::{Error, Result};
 use crate::scene::Scene;
@@ -23,7 +23,7 @@ const PHASES: f64 = Phase::Gathering as u8 as f64 + 1.0;
 
 /// A step of the work, told to the observer.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Progress {
+pub struct ComparisonProgress {
     /// What is being done, in a word or two.
     pub phase: String,
     /// How much of it is done, 0..=1.
@@ -49,7 +49,7 @@ pub struct Comparison {
     /// `None` if a family has no run.
     pub shown: Option<[usize; 2]>,
     /// Across the edge of a shadow, with what the runs to be shown make of it; `None` without such an edge.
-    pub profile: Option<(Profile, [Trace; 2])>,
+    pub profile: Option<(ShadowProfile, [Trace; 2])>,
     /// True if it was stopped before all was done.
     pub interrupted: bool,
 }
@@ -61,8 +61,8 @@ pub struct Comparison {
 /// begun.
 pub fn compare(
     scene: &Scene,
-    plan: &Plan,
-    observe: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    plan: &ComparisonPlan,
+    observe: &mut dyn FnMut(&ComparisonProgress) -> ControlFlow<()>,
 ) -> Result<Comparison> {
     let start = Instant::now();
     let surfaces = surfaces_of(scene);
@@ -70,42 +70,39 @@ pub fn compare(
     surfaces.check()?;
     plan.validate()?;
     plan.validate_for(&surfaces)?;
-    let mut observer = Observer { observe, flow: ControlFlow::Continue(()), runs: 0 };
+    let mut observer = Reporter { observe, flow: ControlFlow::Continue(()), runs: 0 };
     let reference = match &plan.reference {
-        Source::File(path) => Reference::load(path, surfaces.extent)?,
-        Source::Traced(effort) => {
+        ReferenceSource::File(path) => Reference::load(path, surfaces.extent)?,
+        ReferenceSource::Traced(effort) => {
             Reference::trace(&surfaces, effort, &mut |done| observer.tell("reference", done))?
         }
     };
-    let mut series =
-        Series { surfaces: &surfaces, seconds, plan, reference: &reference, runs: Vec::new() };
+    let scene = TimedSurfaces { surfaces: &surfaces, seconds };
+    let mut series = Series { scene, plan, reference: &reference, runs: Vec::new() };
     series.run(&mut observer)?;
-    let mut runs = series.runs;
-    if runs.is_empty() {
+    if series.runs.is_empty() {
         return Err(Error::Scene("stopped before the first run".to_owned()));
     }
-    runs.sort_by(|a, b| {
-        let adaptive = |run: &Run| run.family == Family::Adaptive;
-        adaptive(a).cmp(&adaptive(b)).then(b.knob.total_cmp(&a.knob))
-    });
-    let shown = shown(&runs);
-    let profile = shown
-        .and_then(|shown| profile((&surfaces, &reference), plan, (&runs, shown), &mut observer));
+    series.sort();
+    let shown = shown(&series.runs);
+    let profile = shown.and_then(|shown| series.profile(shown, &mut observer));
+    let runs = series.runs;
     let interrupted = observer.flow.is_break();
     let verdict = Verdict::new(&runs, plan.error);
     Ok(Comparison { verdict, profile, shown, interrupted, surfaces, reference, runs })
 }
 
 /// Tells a caller how far things are, and remembers if it has had enough.
-struct Observer<'a> {
-    observe: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>,
+struct Reporter<'a> {
+    observe: &'a mut dyn FnMut(&ComparisonProgress) -> ControlFlow<()>,
     flow: ControlFlow<()>,
     runs: usize,
 }
 
-impl Observer<'_> {
+impl Reporter<'_> {
     fn tell(&mut self, phase: &str, done: f64) -> ControlFlow<()> {
-        let told = (self.observe)(&Progress { phase: phase.to_owned(), done, runs: self.runs });
+        let told =
+            (self.observe)(&ComparisonProgress { phase: phase.to_owned(), done, runs: self.runs });
         if told.is_break() {
             self.flow = told;
         }
@@ -115,31 +112,31 @@ impl Observer<'_> {
 
 /// Runs on their way.
 struct Series<'a> {
-    surfaces: &'a Surfaces,
-    seconds: f64,
-    plan: &'a Plan,
+    scene: TimedSurfaces<'a>,
+    plan: &'a ComparisonPlan,
     reference: &'a Reference,
     runs: Vec<Run>,
 }
 
 impl Series<'_> {
     /// Adaptive runs first: they tell how fine uniform ones have to be.
-    fn run(&mut self, observer: &mut Observer<'_>) -> Result<()> {
+    fn run(&mut self, observer: &mut Reporter<'_>) -> Result<()> {
         for &tolerance in &self.plan.adaptive {
-            self.add((Family::Adaptive, tolerance), observer)?;
+            self.add(Division { family: Family::Adaptive, knob: tolerance }, observer)?;
         }
         let counts = || self.runs.iter().map(|run| run.elements);
         let range = [counts().min().unwrap_or(0), counts().max().unwrap_or(0)];
         if observer.flow.is_continue() {
             let mut is_over = || observer.tell("sizes", 0.0).is_break();
-            for size in self.plan.sizes(self.surfaces, range, &mut is_over) {
-                self.add((Family::Uniform, size), observer)?;
+            for size in self.plan.sizes(self.scene.surfaces, range, &mut is_over) {
+                self.add(Division { family: Family::Uniform, knob: size }, observer)?;
             }
         }
         Ok(())
     }
 
-    fn add(&mut self, (family, knob): (Family, f64), observer: &mut Observer<'_>) -> Result<()> {
+    fn add(&mut self, division: Division, observer: &mut Reporter<'_>) -> Result<()> {
+        let Division { family, knob } = division;
         let (settings, name) = match family {
             Family::Uniform => (self.plan.uniform_settings(knob), format!("uniform {knob:.3} m")),
             Family::Adaptive => (self.plan.adaptive_settings(knob), format!("adaptive {knob}")),
@@ -147,8 +144,7 @@ impl Series<'_> {
         if observer.tell(&name, 0.0).is_break() {
             return Ok(());
         }
-        let scene = (self.surfaces, self.seconds);
-        let run = Run::new(scene, (family, knob), &settings, self.reference, &mut |progress| {
+        let run = Run::new(self.scene, division, &settings, self.reference, &mut |progress| {
             let done = (f64::from(progress.phase as u8) + progress.done) / PHASES;
             observer.tell(&name, done)
         })?;
@@ -156,6 +152,31 @@ impl Series<'_> {
         observer.runs = self.runs.len();
         self.spare_memory();
         Ok(())
+    }
+
+    /// Uniform runs before adaptive ones, either from coarse to fine.
+    fn sort(&mut self) {
+        let adaptive = |run: &Run| run.family == Family::Adaptive;
+        self.runs.sort_by(|a, b| adaptive(a).cmp(&adaptive(b)).then(b.knob.total_cmp(&a.knob)));
+    }
+
+    /// The profile, with what the runs to be shown make of it.
+    fn profile(
+        &self,
+        shown: [usize; 2],
+        observer: &mut Reporter<'_>,
+    ) -> Option<(ShadowProfile, [Trace; 2])> {
+        let paths = self.plan.profile_paths;
+        if paths == 0 || observer.flow.is_break() {
+            return None;
+        }
+        let surfaces = self.scene.surfaces;
+        let observe = &mut |done| observer.tell("profile", done);
+        let profile = ShadowProfile::find(surfaces, self.reference, paths, observe)?;
+        let trace = |run: usize| Some(profile.trace(surfaces, self.runs[run].lit.as_ref()?));
+        let [uniform, adaptive] = shown.map(trace);
+        let traces = [uniform?, adaptive?];
+        Some((profile, traces))
     }
 
     /// Forgets solutions that will not be shown, if all are too many.
@@ -183,21 +204,4 @@ fn shown(runs: &[Run]) -> Option<[usize; 2]> {
     let gap = |k: usize| (runs[k].elements as f64 / runs[finest].elements as f64).ln().abs();
     let nearest = of(Family::Uniform).min_by(|&a, &b| gap(a).total_cmp(&gap(b)))?;
     Some([nearest, finest])
-}
-
-fn profile(
-    (surfaces, reference): (&Surfaces, &Reference),
-    plan: &Plan,
-    (runs, shown): (&[Run], [usize; 2]),
-    observer: &mut Observer<'_>,
-) -> Option<(Profile, [Trace; 2])> {
-    if plan.profile_paths == 0 || observer.flow.is_break() {
-        return None;
-    }
-    let observe = &mut |done| observer.tell("profile", done);
-    let profile = Profile::find(surfaces, reference, plan.profile_paths, observe)?;
-    let trace = |run: usize| Some(profile.trace(surfaces, runs[run].lit.as_ref()?));
-    let [uniform, adaptive] = shown.map(trace);
-    let traces = [uniform?, adaptive?];
-    Some((profile, traces))
 }

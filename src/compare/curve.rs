@@ -4,7 +4,7 @@ use serde::Serialize;
 
 /// Error against cost, from the lowest cost to the highest; all are above zero.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Curve {
+pub struct CostCurve {
     /// Logarithms of cost and error.
     logs: Vec<[f64; 2]>,
 }
@@ -31,7 +31,7 @@ impl Needed {
     }
 }
 
-impl Curve {
+impl CostCurve {
     /// Of pairs of cost and error in any order; those that are not above zero are left out.
     pub fn new(pairs: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let sound = |x: f64| x > 0.0 && x.is_finite();

@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 
-use super::dice::mixed;
-use super::sampler::{Found, Sampler, Site};
+use super::path_tracer::{Found, PathTracer, Site};
+use super::sobol::mixed;
 use crate::colour::Rgb;
 use crate::watch::watched;
 
@@ -52,8 +52,8 @@ struct Sums {
 
 /// Places whose light becomes known better and better.
 #[derive(Debug)]
-pub(super) struct Estimate<'a> {
-    sampler: &'a Sampler<'a>,
+pub(super) struct LightEstimate<'a> {
+    tracer: &'a PathTracer<'a>,
     sites: &'a [Site],
     sums: Vec<Sums>,
     seed: u64,
@@ -61,16 +61,16 @@ pub(super) struct Estimate<'a> {
     pub(super) paths: u32,
 }
 
-impl<'a> Estimate<'a> {
-    pub(super) fn new(sampler: &'a Sampler<'a>, sites: &'a [Site], seed: u64) -> Self {
+impl<'a> LightEstimate<'a> {
+    pub(super) fn new(tracer: &'a PathTracer<'a>, sites: &'a [Site], seed: u64) -> Self {
         let start = |site: &Site| Sums {
-            direct: sampler.direct(site).irradiance,
-            reflectance: sampler.reflectance(site),
+            direct: tracer.direct(site).irradiance,
+            reflectance: tracer.reflectance(site),
             rounds: [Rgb::ZERO; ROUNDS],
             escaped: 0,
         };
         let sums = sites.par_iter().map(start).collect();
-        Self { sampler, sites, sums, seed, paths: 0 }
+        Self { tracer, sites, sums, seed, paths: 0 }
     }
 
     /// Lengthens the rounds until `effort` is spent, the noise is small or `observe`, told of the share done,
@@ -99,13 +99,13 @@ impl<'a> Estimate<'a> {
         paths: u32,
         go_on: impl FnMut() -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        let (sampler, seed) = (self.sampler, self.seed);
+        let (tracer, seed) = (self.tracer, self.seed);
         let range = self.paths..self.paths + paths;
         let longer = |(number, (sums, site)): (usize, (&Sums, &Site))| {
             let mut sums = *sums;
             for (round, sum) in sums.rounds.iter_mut().enumerate() {
                 let seed = mixed(&[seed, round as u64, number as u64]);
-                let Found { indirect, escaped } = sampler.indirect(site, range.clone(), seed);
+                let Found { indirect, escaped } = tracer.indirect(site, range.clone(), seed);
                 *sum += indirect;
                 sums.escaped += escaped;
             }
@@ -153,7 +153,7 @@ impl<'a> Estimate<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compare::scatter::area_sites;
+    use crate::compare::sample_points::area_sites;
     use crate::scene::load;
     use crate::surface::{Surfaces, surfaces_of};
 
@@ -165,7 +165,7 @@ mod tests {
     #[test]
     fn in_a_furnace_all_is_alike() {
         let surfaces = shipped("furnace.obj");
-        let sampler = Sampler::new(&surfaces);
+        let tracer = PathTracer::new(&surfaces);
         let wall = |surface: usize, place: glam::DVec2| {
             let plane = surfaces.list[surface].plane;
             Site { surface, place: plane.lift(place), normal: plane.normal }
@@ -176,7 +176,7 @@ mod tests {
             [0.0, 0.5, 0.97].map(|share| wall(surface, middle.lerp(ring[0], share)))
         };
         let sites: Vec<Site> = (0..6).flat_map(inside).collect();
-        let mut estimate = Estimate::new(&sampler, &sites, 1);
+        let mut estimate = LightEstimate::new(&tracer, &sites, 1);
         let _ = estimate.lengthen(64, || ControlFlow::Continue(()));
         for number in 0..sites.len() {
             // B = E / (1 - ρ) = 2, of which 1 is emitted.
@@ -189,11 +189,11 @@ mod tests {
     #[test]
     fn two_seeds_differ_as_their_errors_say() {
         let surfaces = shipped("cornell-box.obj");
-        let sampler = Sampler::new(&surfaces);
+        let tracer = PathTracer::new(&surfaces);
         let sites: Vec<Site> =
             area_sites(&surfaces, 300, 1).into_iter().map(|placed| placed.site).collect();
         let found = [1, 2].map(|seed| {
-            let mut estimate = Estimate::new(&sampler, &sites, seed);
+            let mut estimate = LightEstimate::new(&tracer, &sites, seed);
             let _ = estimate.lengthen(32, || ControlFlow::Continue(()));
             estimate
         });

@@ -22,7 +22,7 @@ const BEARABLE: usize = 1_000_000;
 
 /// Where the truth is from.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Source {
+pub enum ReferenceSource {
     /// Found by paths.
     Traced(Effort),
     /// A file, see [`Reference::load`](super::Reference::load).
@@ -31,7 +31,7 @@ pub enum Source {
 
 /// What to compare, and by what.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
+pub struct ComparisonPlan {
     /// All but the tolerance of adaptive and the size of uniform meshes.
     ///
     /// Uniform meshes gather reflected light to the finest tolerance.
@@ -41,27 +41,27 @@ pub struct Plan {
     /// Tolerances of adaptive meshes.
     pub adaptive: Vec<f64>,
     /// The truth.
-    pub reference: Source,
+    pub reference: ReferenceSource,
     /// The error at which costs are compared, as a share of the mean; `None`: the smallest that both reach.
     pub error: Option<f64>,
     /// Paths from each place of the profile across a shadow edge; 0 for none.
     pub profile_paths: usize,
 }
 
-impl Default for Plan {
+impl Default for ComparisonPlan {
     fn default() -> Self {
         Self {
             settings: Settings::medium(),
             uniform: None,
             adaptive: vec![0.2, 0.1, 0.05, 0.02],
-            reference: Source::Traced(Effort::default()),
+            reference: ReferenceSource::Traced(Effort::default()),
             error: None,
             profile_paths: 4096,
         }
     }
 }
 
-impl Plan {
+impl ComparisonPlan {
     /// Settings of an adaptive mesh.
     pub fn adaptive_settings(&self, tolerance: f64) -> Settings {
         Settings { tolerance, uniform: None, ..self.settings.clone() }
@@ -110,7 +110,7 @@ impl Plan {
     }
 }
 
-impl Plan {
+impl ComparisonPlan {
     /// Whether every setting is in its range.
     ///
     /// # Errors
@@ -126,7 +126,7 @@ impl Plan {
         if !self.error.is_none_or(|error| error > 0.0 && error.is_finite()) {
             return Err(setting("error", "the error to compare at must be above zero"));
         }
-        if let Source::Traced(Effort { noise, area_points, .. }) = self.reference
+        if let ReferenceSource::Traced(Effort { noise, area_points, .. }) = self.reference
             && !(noise > 0.0 && area_points > 0)
         {
             return Err(setting("noise", "noise and number of places must be above zero"));

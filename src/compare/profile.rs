@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 use glam::{DVec2, DVec3};
 use serde::Serialize;
 
-use super::estimate::{Estimate, ROUNDS};
+use super::estimate::{LightEstimate, ROUNDS};
 use super::locate::Locator;
+use super::path_tracer::{PathTracer, Site};
 use super::reference::{Point, Reference, Set, is_open};
 use super::run::Lit;
-use super::sampler::{Sampler, Site};
 use crate::colour::luminance;
 use crate::surface::polygon::{Line, contains, edges};
 use crate::surface::{Surface, Surfaces};
@@ -44,7 +44,7 @@ const SMOOTH: f64 = 1.5;
 
 /// A straight line on a surface, across the edge of a shadow.
 #[derive(Clone, Debug, Serialize)]
-pub struct Profile {
+pub struct ShadowProfile {
     /// The surface, an index into [`Surfaces::list`].
     pub surface: usize,
     /// Its ends, m.
@@ -69,7 +69,7 @@ pub struct Trace {
 }
 
 /// A place of a shadow, and which way it falls.
-struct Edge {
+struct ShadowEdge {
     site: Site,
     /// Unit vector on the surface's plane, towards the light.
     direction: DVec2,
@@ -96,7 +96,7 @@ struct Transect {
     worth: f64,
 }
 
-impl Profile {
+impl ShadowProfile {
     /// Across the smooth edge of a shadow on a large surface at which most light goes; `None` if there is none, or
     /// `observe`, told of the share done, breaks off.
     pub fn find(
@@ -105,8 +105,8 @@ impl Profile {
         paths: usize,
         observe: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Option<Self> {
-        let sampler = Sampler::new(surfaces);
-        let Transect { site, penumbra, ends, .. } = best(&sampler, reference, observe)?;
+        let tracer = PathTracer::new(surfaces);
+        let Transect { site, penumbra, ends, .. } = best(&tracer, reference, observe)?;
         let surface = &surfaces.list[site.surface];
         let length = ends[0].distance(ends[1]);
         let at: Vec<f64> = (0..PLACES).map(|k| length * k as f64 / (PLACES - 1) as f64).collect();
@@ -115,7 +115,7 @@ impl Profile {
             Site { place, ..site }
         };
         let sites: Vec<Site> = at.iter().map(site_at).collect();
-        let mut estimate = Estimate::new(&sampler, &sites, PROFILE_SEED);
+        let mut estimate = LightEstimate::new(&tracer, &sites, PROFILE_SEED);
         let paths = (paths / ROUNDS).max(1) as u32;
         estimate.lengthen(paths, || observe(FOUND)).continue_value()?;
         let found: Vec<[f64; 2]> =
@@ -162,18 +162,18 @@ impl Profile {
 
 /// Of all lines across soft edges at the places of the shadow set, the one along which most light goes.
 fn best(
-    sampler: &Sampler<'_>,
+    tracer: &PathTracer<'_>,
     reference: &Reference,
     observe: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Option<Transect> {
-    let surfaces = sampler.surfaces;
+    let surfaces = tracer.surfaces;
     let largest = surfaces.list.iter().map(Surface::area).fold(0.0, f64::max);
     let shadow: Vec<_> = reference.points.iter().filter(|point| point.set == Set::Shadow).collect();
     let transect = |(): &mut (), point: &&Point| {
         let surface = surface_at(surfaces, point.place, point.normal)?;
         let large = surfaces.list[surface].area() >= LARGE * largest;
         let site = Site { surface, place: point.place, normal: point.normal };
-        large.then(|| transect(sampler, &site)).flatten()
+        large.then(|| transect(tracer, &site)).flatten()
     };
     let found: Vec<Option<Transect>> =
         in_batches(&shadow, |_| (), transect, |done| observe(FOUND * done));
@@ -187,14 +187,14 @@ fn best(
 }
 
 /// The line across the soft edge at a place, if there is one; where light jumps there is no penumbra.
-fn transect(sampler: &Sampler<'_>, site: &Site) -> Option<Transect> {
-    let edge = edge(sampler, site, SCALE * sampler.surfaces.extent)?;
-    let penumbra = penumbra(sampler, &edge)?;
-    let middle = sampler.surfaces.list[site.surface].plane.flatten(site.place);
+fn transect(tracer: &PathTracer<'_>, site: &Site) -> Option<Transect> {
+    let edge = edge(tracer, site, SCALE * tracer.surfaces.extent)?;
+    let penumbra = penumbra(tracer, &edge)?;
+    let middle = tracer.surfaces.list[site.surface].plane.flatten(site.place);
     let along = edge.direction * (WIDTHS * penumbra.width / 2.0);
-    let ends = clipped((sampler, site), middle + edge.direction * penumbra.centre, along)?;
+    let ends = clipped(tracer, site, middle + edge.direction * penumbra.centre, along)?;
     let whole = ends[0].distance(ends[1]) / (2.0 * along.length());
-    let all = luminance(sampler.direct(site).unoccluded);
+    let all = luminance(tracer.direct(site).unoccluded);
     Some(Transect { site: *site, penumbra, ends, worth: penumbra.contrast * all * whole })
 }
 
@@ -209,39 +209,39 @@ fn surface_at(surfaces: &Surfaces, place: DVec3, normal: DVec3) -> Option<usize>
 }
 
 /// How shadow falls at a place, if smoothly.
-fn edge(sampler: &Sampler<'_>, site: &Site, step: f64) -> Option<Edge> {
-    let whole = gradient(sampler, site, step)?;
-    let half = gradient(sampler, site, step / 2.0)?;
+fn edge(tracer: &PathTracer<'_>, site: &Site, step: f64) -> Option<ShadowEdge> {
+    let whole = gradient(tracer, site, step)?;
+    let half = gradient(tracer, site, step / 2.0)?;
     let steepness = whole.length();
     let smooth =
         steepness > 0.0 && (steepness / SMOOTH..=steepness * SMOOTH).contains(&half.length());
-    smooth.then(|| Edge { site: *site, direction: whole.normalize_or_zero() })
+    smooth.then(|| ShadowEdge { site: *site, direction: whole.normalize_or_zero() })
 }
 
 /// Change of the visible share of lamps, times what they would send, on the plane of a place, W/m³.
-fn gradient(sampler: &Sampler<'_>, site: &Site, step: f64) -> Option<DVec2> {
-    let surface = &sampler.surfaces.list[site.surface];
+fn gradient(tracer: &PathTracer<'_>, site: &Site, step: f64) -> Option<DVec2> {
+    let surface = &tracer.surfaces.list[site.surface];
     let middle = surface.plane.flatten(site.place);
-    let visible = |offset: DVec2| visible(sampler, site, middle + offset);
+    let visible = |offset: DVec2| visible(tracer, site, middle + offset);
     let along = |axis: DVec2| Some((visible(axis * step)? - visible(-axis * step)?) / (2.0 * step));
-    let all = sampler.direct(site).unoccluded.element_sum() / 3.0;
+    let all = tracer.direct(site).unoccluded.element_sum() / 3.0;
     Some(DVec2::new(along(DVec2::X)?, along(DVec2::Y)?) * all)
 }
 
 /// Share of the lamps that is seen from a place on a site's surface; `None` off the surface.
-fn visible(sampler: &Sampler<'_>, site: &Site, at: DVec2) -> Option<f64> {
-    let surface = &sampler.surfaces.list[site.surface];
+fn visible(tracer: &PathTracer<'_>, site: &Site, at: DVec2) -> Option<f64> {
+    let surface = &tracer.surfaces.list[site.surface];
     let place = surface.plane.lift(at);
-    contains(&surface.rings, at).then(|| sampler.direct(&Site { place, ..*site }).visible())
+    contains(&surface.rings, at).then(|| tracer.direct(&Site { place, ..*site }).visible())
 }
 
 /// The penumbra that a place is in: from it both ways along the edge's direction, while light rises or falls.
-fn penumbra(sampler: &Sampler<'_>, edge: &Edge) -> Option<Penumbra> {
-    let surface = &sampler.surfaces.list[edge.site.surface];
+fn penumbra(tracer: &PathTracer<'_>, edge: &ShadowEdge) -> Option<Penumbra> {
+    let surface = &tracer.surfaces.list[edge.site.surface];
     let middle = surface.plane.flatten(edge.site.place);
-    let step = STEP * sampler.surfaces.extent;
+    let step = STEP * tracer.surfaces.extent;
     let seen = |k: usize, sign: f64| {
-        visible(sampler, &edge.site, middle + edge.direction * (sign * step * k as f64))
+        visible(tracer, &edge.site, middle + edge.direction * (sign * step * k as f64))
     };
     // How far, and what share of the lamps is seen there.
     let walk = |sign: f64| {
@@ -262,16 +262,17 @@ fn penumbra(sampler: &Sampler<'_>, edge: &Edge) -> Option<Penumbra> {
 /// The part of the line from `middle - along` to `middle + along` around its middle that is on a site's
 /// surface, and not inside a solid.
 fn clipped(
-    (sampler, site): (&Sampler<'_>, &Site),
+    tracer: &PathTracer<'_>,
+    site: &Site,
     middle: DVec2,
     along: DVec2,
 ) -> Option<[DVec2; 2]> {
-    let surface = &sampler.surfaces.list[site.surface];
+    let surface = &tracer.surfaces.list[site.surface];
     let reach = |direction: DVec2| {
         let inside = |share: f64| {
             let at = middle + direction * share;
             let site = Site { place: surface.plane.lift(at), ..*site };
-            contains(&surface.rings, at) && is_open(sampler, &site)
+            contains(&surface.rings, at) && is_open(tracer, &site)
         };
         let steps = (1..=256).map(|k| f64::from(k) / 256.0);
         steps.take_while(|&share| inside(share)).last()

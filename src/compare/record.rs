@@ -9,12 +9,12 @@ use serde_json::Value;
 use super::comparison::Comparison;
 use super::reference::{Origin, Reference, Set};
 use super::run::Run;
-use super::score::{Band, Errors};
+use super::score::{Band, ErrorStatistics};
 use crate::error::{Error, Result};
 use crate::file;
 
 /// What can be written.
-enum Format {
+enum FigureFormat {
     Csv,
     Json,
 }
@@ -47,8 +47,8 @@ struct About<'a> {
 pub fn save(comparison: &Comparison, about: &Value, path: &Path) -> Result<()> {
     let format = format_of(path)?;
     file::replace(path, |out| match format {
-        Format::Csv => write_runs(&comparison.runs, out),
-        Format::Json => {
+        FigureFormat::Csv => write_runs(&comparison.runs, out),
+        FigureFormat::Json => {
             serde_json::to_writer_pretty(&mut *out, &Record::new(comparison, about))?;
             writeln!(out)
         }
@@ -69,15 +69,15 @@ pub fn check_writable(path: &Path) -> Result<()> {
     file::probe(path)
 }
 
-fn format_of(path: &Path) -> Result<Format> {
+fn format_of(path: &Path) -> Result<FigureFormat> {
     match path
         .extension()
         .and_then(|ending| ending.to_str())
         .map(str::to_ascii_lowercase)
         .as_deref()
     {
-        Some("csv") => Ok(Format::Csv),
-        Some("json") => Ok(Format::Json),
+        Some("csv") => Ok(FigureFormat::Csv),
+        Some("json") => Ok(FigureFormat::Json),
         _ => Err(Error::UnknownFormat { path: path.to_owned(), known: ".csv, .json" }),
     }
 }
@@ -102,12 +102,13 @@ impl<'a> About<'a> {
 }
 
 /// A cell of the table.
-type Cell = (String, String);
+type CsvField = (String, String);
 
 fn write_runs(runs: &[Run], out: &mut impl Write) -> io::Result<()> {
     for (number, run) in runs.iter().enumerate() {
         let cells = row(run);
-        let line = |part: fn(&Cell) -> &str| cells.iter().map(part).collect::<Vec<_>>().join(",");
+        let line =
+            |part: fn(&CsvField) -> &str| cells.iter().map(part).collect::<Vec<_>>().join(",");
         if number == 0 {
             writeln!(out, "{}", line(|(name, _)| name))?;
         }
@@ -116,7 +117,7 @@ fn write_runs(runs: &[Run], out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
-fn row(run: &Run) -> Vec<Cell> {
+fn row(run: &Run) -> Vec<CsvField> {
     let mut cells = counts(run);
     for band in Band::ALL {
         cells.extend(errors(band, run.score.of(band)));
@@ -125,11 +126,11 @@ fn row(run: &Run) -> Vec<Cell> {
     cells
 }
 
-fn cell(name: &str, value: impl ToString) -> Cell {
+fn cell(name: &str, value: impl ToString) -> CsvField {
     (name.to_owned(), value.to_string())
 }
 
-fn counts(run: &Run) -> Vec<Cell> {
+fn counts(run: &Run) -> Vec<CsvField> {
     let divided = run.divided;
     vec![
         cell("family", run.family.name()),
@@ -162,7 +163,7 @@ fn counts(run: &Run) -> Vec<Cell> {
     ]
 }
 
-fn errors(band: Band, errors: &Errors) -> Vec<Cell> {
+fn errors(band: Band, errors: &ErrorStatistics) -> Vec<CsvField> {
     let name = match band {
         Band::All => "all",
         Band::Shadow => "shadow",
@@ -184,7 +185,7 @@ fn errors(band: Band, errors: &Errors) -> Vec<Cell> {
 }
 
 /// What no two machines agree on.
-fn costs(run: &Run) -> Vec<Cell> {
+fn costs(run: &Run) -> Vec<CsvField> {
     let seconds = run.seconds;
     vec![
         cell("seconds", seconds.total()),

@@ -8,9 +8,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::estimate::{Effort, Estimate, ROUNDS};
-use super::sampler::{Sampler, Site};
-use super::scatter::{Near, REACH, area_sites, shadow_sites};
+use super::estimate::{Effort, LightEstimate, ROUNDS};
+use super::path_tracer::{PathTracer, Site};
+use super::sample_points::{PointGrid, REACH, area_sites, shadow_sites};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
 use crate::surface::polygon::contains;
@@ -101,9 +101,9 @@ impl Reference {
         observe: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Self> {
         let start = Instant::now();
-        let sampler = Sampler::new(surfaces);
-        let (sites, weights) = places(&sampler, effort);
-        let mut estimate = Estimate::new(&sampler, &sites, effort.seed);
+        let tracer = PathTracer::new(surfaces);
+        let (sites, weights) = places(&tracer, effort);
+        let mut estimate = LightEstimate::new(&tracer, &sites, effort.seed);
         estimate.run(effort, observe);
         if estimate.paths == 0 {
             return Err(Error::Scene("stopped before there was a reference".to_owned()));
@@ -150,17 +150,17 @@ impl Reference {
 }
 
 /// The places of both sets that are not inside solids, with their sets and weights.
-fn places(sampler: &Sampler<'_>, effort: &Effort) -> (Vec<Site>, Vec<(Set, f64)>) {
-    let area = area_sites(sampler.surfaces, effort.area_points, effort.seed).into_iter();
-    let shadow = shadow_sites(sampler, effort.shadow_points, effort.seed).into_iter();
+fn places(tracer: &PathTracer<'_>, effort: &Effort) -> (Vec<Site>, Vec<(Set, f64)>) {
+    let area = area_sites(tracer.surfaces, effort.area_points, effort.seed).into_iter();
+    let shadow = shadow_sites(tracer, effort.shadow_points, effort.seed).into_iter();
     let area = area.map(|placed| (placed.site, (Set::Area, placed.area)));
     let all: Vec<_> = area.chain(shadow.map(|site| (site, (Set::Shadow, 1.0)))).collect();
-    all.into_par_iter().filter(|(site, _)| is_open(sampler, site)).unzip()
+    all.into_par_iter().filter(|(site, _)| is_open(tracer, site)).unzip()
 }
 
 /// True if a site is not inside a solid.
-pub(super) fn is_open(sampler: &Sampler<'_>, site: &Site) -> bool {
-    !is_covered(sampler.surfaces, site) && sampler.backs(site, LOOKS) <= BURIED
+pub(super) fn is_open(tracer: &PathTracer<'_>, site: &Site) -> bool {
+    !is_covered(tracer.surfaces, site) && tracer.backs(site, LOOKS) <= BURIED
 }
 
 /// True where another surface lies face to face on a site's own, as the bottom of a box that stands on a floor.
@@ -184,7 +184,7 @@ fn is_covered(surfaces: &Surfaces, site: &Site) -> bool {
 /// Which points are of the shadow set or, facing the same way, near one that is.
 fn band(points: &[Point], reach: f64) -> Vec<bool> {
     let shadow: Vec<&Point> = points.iter().filter(|point| point.set == Set::Shadow).collect();
-    let near = Near::new(shadow.iter().map(|point| (point.place, 0)), reach);
+    let near = PointGrid::new(shadow.iter().map(|point| (point.place, 0)), reach);
     let in_band = |point: &Point| {
         point.set == Set::Shadow
             || near.around(point.place, 0).any(|k| {

@@ -38,6 +38,24 @@ impl Family {
     }
 }
 
+/// A family, and what it is told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Division {
+    /// How the mesh is divided.
+    pub family: Family,
+    /// The size of elements, m, or the tolerance.
+    pub knob: f64,
+}
+
+/// What every run begins with.
+#[derive(Clone, Copy, Debug)]
+pub struct TimedSurfaces<'a> {
+    /// The scene's surfaces.
+    pub surfaces: &'a Surfaces,
+    /// What they took, s.
+    pub seconds: f64,
+}
+
 /// Time by phase, s.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Seconds {
@@ -121,13 +139,13 @@ pub struct Run {
 }
 
 impl Run {
-    /// Solves and measures; `seconds` is what surfaces took. Nothing of it, if `observe` has broken off by then.
+    /// Solves and measures. Nothing of it, if `observe` has broken off by then.
     ///
     /// # Errors
     /// Those of [`solve`].
     pub fn new(
-        (surfaces, seconds): (&Surfaces, f64),
-        (family, knob): (Family, f64),
+        TimedSurfaces { surfaces, seconds }: TimedSurfaces<'_>,
+        Division { family, knob }: Division,
         settings: &Settings,
         reference: &Reference,
         observe: &mut dyn FnMut(&Progress) -> ControlFlow<()>,

@@ -36,7 +36,7 @@ impl Band {
 
 /// Errors over a set of places, as shares of their mean radiosity; places count by their weight, channels alike.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Errors {
+pub struct ErrorStatistics {
     /// How many places.
     pub points: usize,
     /// Mean radiosity of the reference, W/m².
@@ -64,7 +64,7 @@ pub struct Errors {
     pub floor: f64,
 }
 
-impl Errors {
+impl ErrorStatistics {
     /// The root mean square error in per cent, or its floor if it is not resolved, and either in words; `None`
     /// without light.
     pub fn in_percent(&self) -> Option<(f64, String)> {
@@ -79,11 +79,11 @@ impl Errors {
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Score {
     /// Over the area set.
-    pub all: Errors,
+    pub all: ErrorStatistics,
     /// Over the shadow set.
-    pub shadow: Errors,
+    pub shadow: ErrorStatistics,
     /// Over what of the area set is not in the shadow band.
-    pub rest: Errors,
+    pub rest: ErrorStatistics,
     /// Places that no triangle is near; they count as black.
     pub unmatched: usize,
     /// By point of the reference: radiosity of the mesh minus the reference's, W/m².
@@ -93,7 +93,7 @@ pub struct Score {
 
 impl Score {
     /// The errors over one of the sets.
-    pub fn of(&self, band: Band) -> &Errors {
+    pub fn of(&self, band: Band) -> &ErrorStatistics {
         match band {
             Band::All => &self.all,
             Band::Shadow => &self.shadow,
@@ -114,7 +114,9 @@ pub fn score(reference: &Reference, mesh: &TriMesh, extent: f64) -> Score {
         found.iter().zip(points).map(|(b, p)| b.unwrap_or(Rgb::ZERO) - p.radiosity).collect();
     let errors = |chosen: &dyn Fn(usize) -> bool| {
         let chosen = (0..points.len()).filter(|&k| chosen(k));
-        errors(&chosen.map(|k| (&points[k], signed[k])).collect::<Vec<_>>())
+        errors(
+            &chosen.map(|k| Deviation { point: &points[k], excess: signed[k] }).collect::<Vec<_>>(),
+        )
     };
     let is = |set: Set| move |k: usize| points[k].set == set;
     Score {
@@ -126,31 +128,46 @@ pub fn score(reference: &Reference, mesh: &TriMesh, extent: f64) -> Score {
     }
 }
 
-/// Errors at places with what the mesh has too much there.
-fn errors(points: &[(&Point, Rgb)]) -> Errors {
-    let total: f64 = points.iter().map(|(point, _)| point.weight).sum();
+/// A place of the reference, and what the mesh has too much there.
+struct Deviation<'a> {
+    point: &'a Point,
+    /// W/m².
+    excess: Rgb,
+}
+
+/// A value that counts as much as its weight.
+struct Weighted {
+    value: f64,
+    weight: f64,
+}
+
+fn errors(deviations: &[Deviation<'_>]) -> ErrorStatistics {
+    let points = deviations.iter().map(|deviation| deviation.point);
+    let total: f64 = points.map(|point| point.weight).sum();
+    let share = |point: &Point| point.weight / total;
     let mean_of = |value: &dyn Fn(&Point, Rgb) -> f64| {
-        points.iter().map(|(point, d)| point.weight / total * value(point, *d)).sum::<f64>()
+        let terms = deviations.iter().map(|d| share(d.point) * value(d.point, d.excess));
+        terms.sum::<f64>()
     };
     let mean = mean_of(&|point, _| grey(point.radiosity));
-    if points.is_empty() || mean <= 0.0 {
-        return Errors { points: points.len(), ..Errors::default() };
+    if deviations.is_empty() || mean <= 0.0 {
+        return ErrorStatistics { points: deviations.len(), ..ErrorStatistics::default() };
     }
     let square = mean_of(&|_, d| grey(d * d));
     let variance = mean_of(&|point, _| grey(point.error * point.error));
-    let luck = |(point, _): &(&Point, Rgb)| {
-        2.0 * (point.weight / total * grey(point.error * point.error)).powi(2)
-    };
-    let luck = points.iter().map(luck).sum::<f64>().sqrt();
+    let luck =
+        |d: &Deviation<'_>| 2.0 * (share(d.point) * grey(d.point.error * d.point.error)).powi(2);
+    let luck = deviations.iter().map(luck).sum::<f64>().sqrt();
     let chance =
-        |(point, d): &(&Point, Rgb)| (point.weight / total * (grey(*d * *d) - square)).powi(2);
-    let chance = points.iter().map(chance).sum::<f64>().sqrt();
+        |d: &Deviation<'_>| (share(d.point) * (grey(d.excess * d.excess) - square)).powi(2);
+    let chance = deviations.iter().map(chance).sum::<f64>().sqrt();
     let rmse = (square - variance).max(0.0).sqrt() / mean;
-    let mut sizes: Vec<(f64, f64)> =
-        points.iter().map(|(point, d)| (grey(d.abs()) / mean, point.weight / total)).collect();
-    sizes.sort_by(|a, b| a.0.total_cmp(&b.0));
-    Errors {
-        points: points.len(),
+    let size =
+        |d: &Deviation<'_>| Weighted { value: grey(d.excess.abs()) / mean, weight: share(d.point) };
+    let mut sizes: Vec<Weighted> = deviations.iter().map(size).collect();
+    sizes.sort_by(|a, b| a.value.total_cmp(&b.value));
+    ErrorStatistics {
+        points: deviations.len(),
         mean,
         rmse,
         rmse_error: spread_of_root(rmse, chance / (mean * mean)),
@@ -159,7 +176,7 @@ fn errors(points: &[(&Point, Rgb)]) -> Errors {
         bias: mean_of(&|_, d| grey(d)) / mean,
         median: quantile(&sizes, 0.5),
         p95: quantile(&sizes, 0.95),
-        max: sizes.last().map_or(0.0, |&(size, _)| size),
+        max: sizes.last().map_or(0.0, |size| size.value),
         noise: variance.sqrt() / mean,
         floor: (2.0 * luck).sqrt() / mean,
     }
@@ -176,11 +193,11 @@ fn grey(colour: Rgb) -> f64 {
 }
 
 /// The value below which this share of the weight is; values ascend.
-fn quantile(values: &[(f64, f64)], share: f64) -> f64 {
+fn quantile(values: &[Weighted], share: f64) -> f64 {
     let mut sum = 0.0;
-    let reached = values.iter().find(|(_, weight)| {
-        sum += weight;
+    let reached = values.iter().find(|one| {
+        sum += one.weight;
         sum >= share
     });
-    reached.or(values.last()).map_or(0.0, |&(value, _)| value)
+    reached.or(values.last()).map_or(0.0, |one| one.value)
 }

@@ -21,7 +21,8 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Vec<Point>> {
     let (number, header) = lines.find(|(_, line)| !line.is_empty()).ok_or_else(|| {
         Error::format(path, format!("is empty; its first line must be {}", NEEDED.join(",")))
     })?;
-    let header = Header::new(header).map_err(|message| Error::at_line(path, number, message))?;
+    let header =
+        TableHeader::new(header).map_err(|message| Error::at_line(path, number, message))?;
     let rows = lines.filter(|(_, line)| !line.is_empty());
     rows.map(|(number, line)| {
         header.point(line).map_err(|message| Error::at_line(path, number, message))
@@ -46,13 +47,13 @@ fn write(points: &[Point], out: &mut impl Write) -> io::Result<()> {
 }
 
 /// Where the columns are.
-struct Header {
+struct TableHeader {
     columns: usize,
     needed: [usize; 9],
     optional: [Option<usize>; 5],
 }
 
-impl Header {
+impl TableHeader {
     fn new(line: &str) -> std::result::Result<Self, String> {
         let names: Vec<&str> = line.split(',').map(str::trim).collect();
         if let Some(name) = names.iter().find(|n| !NEEDED.contains(n) && !OPTIONAL.contains(n)) {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::curve::{Curve, Needed};
+use super::curve::{CostCurve, Needed};
 use super::run::{Family, Run};
 use super::score::Band;
 
@@ -47,8 +47,10 @@ impl Cost {
 /// The curves of error against cost of both families, for one set of places and one kind of cost.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contest {
+    /// The kind of cost.
+    pub cost: Cost,
     /// Uniform, adaptive.
-    pub curves: [Curve; 2],
+    pub curves: [CostCurve; 2],
     /// Errors below this are not resolved.
     pub floor: f64,
 }
@@ -126,7 +128,7 @@ impl Verdict {
     /// Of runs of both families; at `error`, or at the smallest that both reach.
     pub fn new(runs: &[Run], error: Option<f64>) -> Self {
         let verdict = |&band: &Band| {
-            let contests = Cost::ALL.map(|cost| (cost, Contest::new(runs, band, cost)));
+            let contests = Cost::ALL.map(|cost| Contest::new(runs, band, cost));
             BandVerdict::new(band, &contests, error)
         };
         Self { bands: Band::ALL.iter().filter_map(verdict).collect() }
@@ -147,20 +149,20 @@ impl Contest {
             (cost.of(run), if errors.mean > 0.0 { errors.rmse.max(errors.floor) } else { 0.0 })
         };
         let curve =
-            |family: Family| Curve::new(runs.iter().filter(|r| r.family == family).map(pair));
+            |family: Family| CostCurve::new(runs.iter().filter(|r| r.family == family).map(pair));
         let floor = runs.iter().map(|run| run.score.of(band).floor).fold(0.0, f64::max);
-        Self { curves: Family::ALL.map(curve), floor }
+        Self { cost, curves: Family::ALL.map(curve), floor }
     }
 
     /// The smallest error that both reach.
     pub fn common_error(&self) -> Option<f64> {
-        let [uniform, adaptive] = self.curves.each_ref().map(Curve::least_error);
+        let [uniform, adaptive] = self.curves.each_ref().map(CostCurve::least_error);
         Some(uniform?.max(adaptive?))
     }
 
     /// The most that both have spent.
     pub fn common_cost(&self) -> Option<f64> {
-        let [uniform, adaptive] = self.curves.each_ref().map(Curve::costs);
+        let [uniform, adaptive] = self.curves.each_ref().map(CostCurve::costs);
         let ([low_u, high_u], [low_a, high_a]) = (uniform?, adaptive?);
         let amount = high_u.min(high_a);
         (amount >= low_u.max(low_a)).then_some(amount)
@@ -168,25 +170,25 @@ impl Contest {
 }
 
 impl BandVerdict {
-    /// From the contests by cost; `None` without an error that both reach.
-    pub fn new(band: Band, contests: &[(Cost, Contest)], error: Option<f64>) -> Option<Self> {
-        let (_, first) = contests.first()?;
+    /// From its contests, one for each kind of cost; `None` without an error that both reach.
+    pub fn new(band: Band, contests: &[Contest], error: Option<f64>) -> Option<Self> {
+        let first = contests.first()?;
         let error = error.or(first.common_error())?;
-        let at_error = |(cost, contest): &(Cost, Contest)| AtEqualError {
-            cost: *cost,
+        let at_error = |contest: &Contest| AtEqualError {
+            cost: contest.cost,
             error,
             needed: contest.curves.each_ref().map(|curve| curve.cost_for(error)),
         };
-        let at_cost = |(cost, contest): &(Cost, Contest)| {
+        let at_cost = |contest: &Contest| {
             let amount = contest.common_cost()?;
             let [uniform, adaptive] = contest.curves.each_ref().map(|curve| curve.error_at(amount));
-            Some(AtEqualCost { cost: *cost, amount, errors: [uniform?, adaptive?] })
+            Some(AtEqualCost { cost: contest.cost, amount, errors: [uniform?, adaptive?] })
         };
         Some(Self {
             band,
             at_equal_error: contests.iter().map(at_error).collect(),
             at_equal_cost: contests.iter().filter_map(at_cost).collect(),
-            slopes: Slopes { fitted: first.curves.each_ref().map(Curve::slope) },
+            slopes: Slopes { fitted: first.curves.each_ref().map(CostCurve::slope) },
             floor: first.floor,
         })
     }

@@ -13,7 +13,7 @@ use super::{Lamp, Lamps, punctual};
 use crate::colour::Rgb;
 use crate::light::Direct;
 use crate::mesh::{Mesh, PatchId};
-use crate::scene::boxes;
+use crate::scene::boxes::{self, Aabb};
 use crate::visibility::{Blockers, Body, CROWDED, Facet, Occluders};
 
 /// Lamps that can send no more than this share of a tolerated error anywhere on a patch are looked at together there, by
@@ -241,10 +241,13 @@ impl<'a> Outlook<'a> {
     /// True if some lamp is nearer to a patch than `distance`, m: light may then be steep on it.
     pub(crate) fn is_near(&self, mesh: &Mesh, distance: f64) -> bool {
         let corners = mesh[self.patch].corners.iter().copied();
-        let (low, high) = boxes::around(corners);
+        let around = boxes::around(corners);
         self.candidates().any(|candidate| {
             let body = self.light.lamps.list[candidate.lamp as usize].body();
-            body.is_some_and(|body| boxes::are_close((low, high), body.bounds(), distance))
+            body.is_some_and(|body| {
+                let (low, high) = body.bounds();
+                boxes::are_close(around, Aabb { low, high }, distance)
+            })
         })
     }
 

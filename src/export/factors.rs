@@ -47,10 +47,12 @@ pub struct FactorPatch {
 /// # Errors
 /// When the ending is none of these, or the file cannot be written.
 pub fn save_factors(table: &FactorTable<'_>, path: &Path) -> Result<()> {
-    match Format::of(path)? {
-        Format::Json => file::replace(path, |out| Ok(serde_json::to_writer(out, &Json(table))?)),
-        Format::Csv => file::replace(path, |out| write_csv(table, out)),
-        Format::Npy => file::replace(path, |out| write_npy(table.factors, out)),
+    match FactorFormat::of(path)? {
+        FactorFormat::Json => {
+            file::replace(path, |out| Ok(serde_json::to_writer(out, &Json(table))?))
+        }
+        FactorFormat::Csv => file::replace(path, |out| write_csv(table, out)),
+        FactorFormat::Npy => file::replace(path, |out| write_npy(table.factors, out)),
     }
 }
 
@@ -59,18 +61,18 @@ pub fn save_factors(table: &FactorTable<'_>, path: &Path) -> Result<()> {
 /// # Errors
 /// When the ending is unknown or no file can be made there.
 pub fn check_writable_factors(path: &Path) -> Result<()> {
-    Format::of(path)?;
+    FactorFormat::of(path)?;
     file::probe(path)
 }
 
 #[derive(Clone, Copy)]
-enum Format {
+enum FactorFormat {
     Json,
     Csv,
     Npy,
 }
 
-impl Format {
+impl FactorFormat {
     fn of(path: &Path) -> Result<Self> {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         match ending.to_ascii_lowercase().as_str() {

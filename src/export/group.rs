@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::reconstruct::{Part, TriMesh};
 
 /// What tells materials from each other: name, texture, and the bits of the cutoff.
-pub(crate) type Look<'a> = (&'a str, Option<u32>, Option<u64>);
+pub(crate) type MaterialKey<'a> = (&'a str, Option<u32>, Option<u64>);
 
 /// The triangles of one material and object and their vertices, numbered on their own.
 #[derive(Debug)]
@@ -30,7 +30,7 @@ impl<'a> Group<'a> {
         Self { name, texture: *texture, cutoff: *cutoff, object: *object, vertices, triangles }
     }
 
-    pub(crate) fn look(&self) -> Look<'a> {
+    pub(crate) fn key(&self) -> MaterialKey<'a> {
         (self.name, self.texture, self.cutoff.map(f64::to_bits))
     }
 
@@ -59,7 +59,7 @@ pub(crate) fn by_object(mesh: &TriMesh) -> Vec<Group<'_>> {
     let mut places = BTreeMap::new();
     for part in mesh.parts.iter().filter(|part| !part.triangles.is_empty()) {
         let empty = Group::new(part);
-        let place = *places.entry((empty.look(), part.object)).or_insert_with(|| {
+        let place = *places.entry((empty.key(), part.object)).or_insert_with(|| {
             groups.push(empty);
             groups.len() - 1
         });

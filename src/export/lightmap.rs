@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageFormat, Rgb32FImage, RgbImage};
 
-use super::look::{Look, coded};
-use super::{Stamp, glb};
+use super::exposed::{ExposedMesh, coded};
+use super::glb;
+use super::stamp::Stamp;
 use crate::error::{Error, Result};
 use crate::file;
 use crate::lightmap::Lightmap;
@@ -48,13 +49,13 @@ pub fn save_lightmap(map: &Lightmap, mesh: &TriMesh, path: &Path, stamp: &Stamp)
     if map.atlas.mesh.triangles.is_empty() {
         return Err(Error::format(path, "there is no triangle to write"));
     }
-    let look = Look::new(mesh, stamp);
+    let exposed = ExposedMesh::new(mesh, stamp);
     let [glb, exr, png] = lightmap_files(path);
     let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let names = [name(&exr), name(&png)];
     picture(&exr, linear(map).into(), ImageFormat::OpenExr)?;
-    picture(&png, displayed(map, look.scale).into(), ImageFormat::Png)?;
-    file::replace(&glb, |out| glb::write_lightmap(map, &look, &names, out))
+    picture(&png, displayed(map, exposed.scale).into(), ImageFormat::Png)?;
+    file::replace(&glb, |out| glb::write_lightmap(map, &exposed, &names, out))
 }
 
 fn picture(path: &Path, image: DynamicImage, format: ImageFormat) -> Result<()> {

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 
+use super::exposed::{ExposedMesh, coded, singles};
 use super::group::{self, Group};
-use super::look::{Look, coded, singles};
 use super::picture::{self, Coding};
 use crate::error::{Error, Result};
 use crate::file;
@@ -45,15 +45,15 @@ pub(super) fn strangers(path: &Path, textures: &[Texture]) -> Vec<PathBuf> {
 const MAP: &str = "map_Kd ";
 
 /// Writes the OBJ at `path`, and beside it a file of materials and the pictures in use.
-pub(crate) fn save(look: &Look, path: &Path) -> Result<()> {
-    let groups = group::by_object(look.mesh);
+pub(crate) fn save(exposed: &ExposedMesh, path: &Path) -> Result<()> {
+    let groups = group::by_object(exposed.mesh);
     let names = material_names(&groups);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let textures: BTreeSet<u32> = groups.iter().filter_map(|group| group.texture).collect();
     for &texture in &textures {
-        let target = path.with_file_name(picture_name(look, &stem, texture));
-        let white = look.whites[texture as usize];
-        let bytes = picture::encoded(&look.mesh.textures[texture as usize], white)
+        let target = path.with_file_name(picture_name(exposed, &stem, texture));
+        let white = exposed.whites[texture as usize];
+        let bytes = picture::encoded(&exposed.mesh.textures[texture as usize], white)
             .map_err(Error::io(&target))?;
         file::replace(&target, |out| out.write_all(&bytes))?;
     }
@@ -62,20 +62,20 @@ pub(crate) fn save(look: &Look, path: &Path) -> Result<()> {
         let mut written = BTreeSet::new();
         groups.iter().zip(&names).filter(|(_, name)| written.insert(*name)).try_for_each(
             |(group, name)| {
-                let picture = group.texture.map(|texture| picture_name(look, &stem, texture));
+                let picture = group.texture.map(|texture| picture_name(exposed, &stem, texture));
                 write_material(name, picture.as_deref(), group.cutoff.is_some(), out)
             },
         )
     })?;
     file::replace(path, |out| {
-        write_header(look, &stem, out)?;
-        let mut body = Body { look, out, vertices: 0, uvs: 0, object: None };
+        write_header(exposed, &stem, out)?;
+        let mut body = ObjBody { exposed, out, vertices: 0, uvs: 0, object: None };
         groups.iter().zip(&names).try_for_each(|(group, name)| body.write_group(group, name))
     })
 }
 
-fn write_header(look: &Look, stem: &str, out: &mut impl Write) -> io::Result<()> {
-    for remark in look.remarks() {
+fn write_header(exposed: &ExposedMesh, stem: &str, out: &mut impl Write) -> io::Result<()> {
+    for remark in exposed.remarks() {
         writeln!(out, "# {remark}")?;
     }
     writeln!(
@@ -86,17 +86,17 @@ fn write_header(look: &Look, stem: &str, out: &mut impl Write) -> io::Result<()>
 }
 
 /// What is written so far, by which OBJ numbers what follows.
-struct Body<'a, W> {
-    look: &'a Look<'a>,
+struct ObjBody<'a, W> {
+    exposed: &'a ExposedMesh<'a>,
     out: &'a mut W,
     vertices: usize,
     uvs: usize,
     object: Option<u32>,
 }
 
-impl<W: Write> Body<'_, W> {
+impl<W: Write> ObjBody<'_, W> {
     fn write_group(&mut self, group: &Group, name: &str) -> io::Result<()> {
-        let mesh = self.look.mesh;
+        let mesh = self.exposed.mesh;
         if let Some(object) = group.object.filter(|_| group.object != self.object) {
             let name = mesh.objects.get(object as usize).map(String::as_str).unwrap_or_default();
             writeln!(self.out, "o {}", name.replace(char::is_control, "_"))?;
@@ -104,8 +104,8 @@ impl<W: Write> Body<'_, W> {
         self.object = group.object;
         for &vertex in &group.vertices {
             let position = mesh.positions[vertex as usize];
-            let [r, g, b] = coded(self.look.shown(vertex, group));
-            if self.look.origin == DVec3::ZERO {
+            let [r, g, b] = coded(self.exposed.shown(vertex, group));
+            if self.exposed.origin == DVec3::ZERO {
                 let [x, y, z] = singles(position);
                 writeln!(self.out, "v {x} {y} {z} {r:.4} {g:.4} {b:.4}")?;
             } else {
@@ -160,9 +160,13 @@ fn write_material(
     }
 }
 
-fn picture_name(look: &Look, stem: &str, texture: u32) -> String {
+fn picture_name(exposed: &ExposedMesh, stem: &str, texture: u32) -> String {
     let number = texture as usize;
-    name_of(stem, number, Coding::of(&look.mesh.textures[number], look.whites[number]).ending())
+    name_of(
+        stem,
+        number,
+        Coding::of(&exposed.mesh.textures[number], exposed.whites[number]).ending(),
+    )
 }
 
 fn name_of(stem: &str, number: usize, ending: &str) -> String {
@@ -189,6 +193,6 @@ fn material_names(groups: &[Group]) -> Vec<String> {
     };
     let names = groups
         .iter()
-        .map(|group| known.entry(group.look()).or_insert_with(|| name_of(group)).clone());
+        .map(|group| known.entry(group.key()).or_insert_with(|| name_of(group)).clone());
     names.collect()
 }

@@ -13,13 +13,25 @@ use glam::{DVec2, UVec2, Vec3};
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
+use super::atlas::Atlas;
+use super::chart::{Chart, PADDING};
 use super::dilate::{Texel, dilate};
-use super::{Atlas, Chart, Lightmap, PADDING};
 use crate::colour::Rgb;
 use crate::reconstruct::TriMesh;
 use crate::solver::Solution;
 use crate::surface::Surfaces;
 use crate::surface::polygon::{area, centroid};
+
+/// An atlas filled with light.
+#[derive(Clone, Debug)]
+pub struct Lightmap<'a> {
+    /// The surfaces it is the light of.
+    pub surfaces: &'a Surfaces,
+    /// Where they are in it.
+    pub atlas: &'a Atlas,
+    /// Radiance of a white diffuse surface, E/π, W/(m² sr), row by row; zero outside of charts.
+    pub texels: Vec<Vec3>,
+}
 
 /// Share of a texel below which it counts as not covered: what rounding leaves of pieces.
 const NOTHING: f64 = 1e-9;
@@ -28,7 +40,7 @@ const NOTHING: f64 = 1e-9;
 const DARKNESS: f64 = 1e-9;
 
 /// A piece of a triangle: seven corners at most, after cuts along four lines.
-type Piece = SmallVec<[DVec2; 8]>;
+type ClippedTriangle = SmallVec<[DVec2; 8]>;
 
 /// Fills an atlas of `surfaces` with the light of their `solution`, reconstructed as `mesh`.
 pub fn bake<'a>(
@@ -49,7 +61,7 @@ pub fn bake<'a>(
         .collect();
     let darkness = DARKNESS * light.iter().map(|light| light.max_element()).fold(0.0, f64::max);
     let fill = |(chart, triangles): (&Chart, &Vec<[u32; 3]>)| {
-        let mut sums = Sums::new(chart.texels, darkness);
+        let mut sums = TexelSums::new(chart.texels, darkness);
         for triangle in triangles {
             let place = |corner: u32| chart.texel(mesh.positions[corner as usize]);
             let corners = triangle.map(|corner| place(corner) - chart.corner.as_dvec2());
@@ -75,18 +87,18 @@ pub fn bake<'a>(
 fn filled(mut texels: Vec<Texel>, size: UVec2) -> Vec<Vec3> {
     let dark: Vec<usize> =
         (0..texels.len()).filter(|&texel| texels[texel] == Texel::Dark).collect();
-    dilate(&mut texels, size, (Texel::Dark, PADDING));
+    dilate(&mut texels, size, Texel::Dark, PADDING);
     for texel in dark {
         if texels[texel] == Texel::Dark {
             texels[texel] = Texel::Lit(Vec3::ZERO);
         }
     }
-    dilate(&mut texels, size, (Texel::Outside, u32::MAX));
+    dilate(&mut texels, size, Texel::Outside, u32::MAX);
     texels.into_iter().map(|texel| texel.light().unwrap_or_default()).collect()
 }
 
 /// Light over texels, summed.
-struct Sums {
+struct TexelSums {
     texels: UVec2,
     /// Light below which there is none, W/(m² sr).
     darkness: f64,
@@ -94,7 +106,7 @@ struct Sums {
     sums: Vec<(Rgb, f64, f64)>,
 }
 
-impl Sums {
+impl TexelSums {
     fn new(texels: UVec2, darkness: f64) -> Self {
         let count = (texels.x * texels.y) as usize;
         Self { texels, darkness, sums: vec![(Rgb::ZERO, 0.0, 0.0); count] }
@@ -103,7 +115,7 @@ impl Sums {
     /// Adds a triangle, given in texels, with light at its corners.
     fn add(&mut self, corners: [DVec2; 3], light: [Rgb; 3]) {
         let field = Field::new(corners, light);
-        let mut rest: Piece = corners.into_iter().collect();
+        let mut rest: ClippedTriangle = corners.into_iter().collect();
         while let Some(row) = first(&rest, 1, self.texels.y) {
             let [mut strip, below] = cut(&rest, 1, end(row, self.texels.y));
             while let Some(column) = first(&strip, 0, self.texels.x) {
@@ -115,7 +127,7 @@ impl Sums {
         }
     }
 
-    fn add_piece(&mut self, texel: usize, piece: &Piece, field: &Field) {
+    fn add_piece(&mut self, texel: usize, piece: &ClippedTriangle, field: &Field) {
         let covered = area(piece).abs();
         if piece.len() > 2 && covered > 0.0 {
             let (light, lit, all) = &mut self.sums[texel];
@@ -175,7 +187,7 @@ impl Field {
 }
 
 /// The row or column, below `count`, in which a piece begins along an axis; `None` once nothing is left.
-fn first(piece: &Piece, axis: usize, count: u32) -> Option<u32> {
+fn first(piece: &ClippedTriangle, axis: usize, count: u32) -> Option<u32> {
     let least = piece.iter().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
     (piece.len() > 2).then(|| (least.max(0.0) as u32).min(count - 1))
 }
@@ -186,8 +198,8 @@ fn end(number: u32, count: u32) -> f64 {
 }
 
 /// The parts of a convex piece before and after a line across an axis.
-fn cut(piece: &Piece, axis: usize, line: f64) -> [Piece; 2] {
-    let (mut before, mut after) = (Piece::new(), Piece::new());
+fn cut(piece: &ClippedTriangle, axis: usize, line: f64) -> [ClippedTriangle; 2] {
+    let (mut before, mut after) = (ClippedTriangle::new(), ClippedTriangle::new());
     for (k, &corner) in piece.iter().enumerate() {
         let next = piece[(k + 1) % piece.len()];
         let (here, there) = (corner[axis] - line, next[axis] - line);
@@ -207,6 +219,6 @@ fn cut(piece: &Piece, axis: usize, line: f64) -> [Piece; 2] {
     // A single edge on the line is no part.
     [before, after].map(|part| {
         let is_flat = part.iter().all(|corner| corner[axis] == line);
-        if is_flat { Piece::new() } else { part }
+        if is_flat { ClippedTriangle::new() } else { part }
     })
 }

@@ -2,10 +2,16 @@
 
 use glam::{DVec2, DVec3, UVec2, Vec2Swizzles};
 
-use super::coarse::Sheet;
-use super::{BLOCK, PADDING};
+use super::coarse::TriangulatedSurface;
 use crate::surface::polygon::bounds;
 use crate::surface::{Plane, Surfaces};
+
+/// Texels around a chart that repeat its border, at least. As the rectangles of charts begin and end at
+/// multiples of [`BLOCK`], bilinear lookups in the map and in its first two mip levels stay in them.
+pub const PADDING: u32 = 2;
+
+/// Rectangles of charts have sides of a multiple of this many texels.
+pub const BLOCK: u32 = 4;
 
 /// Edges along which a chart's rectangle may lie: the longest ones.
 const DIRECTIONS: usize = 16;
@@ -32,10 +38,14 @@ pub struct Chart {
 impl Chart {
     /// A chart of these surfaces, not yet in its place. Its plane is that of the first, its rectangle as
     /// small as can be.
-    pub(super) fn new(surfaces: &Surfaces, sheets: &[Sheet], group: Vec<u32>) -> Self {
+    pub(super) fn new(
+        surfaces: &Surfaces,
+        triangulated: &[TriangulatedSurface],
+        group: Vec<u32>,
+    ) -> Self {
         let plane = surfaces.list[group[0] as usize].plane;
         let outline: Vec<[DVec3; 2]> =
-            group.iter().flat_map(|&surface| sheets[surface as usize].edges()).collect();
+            group.iter().flat_map(|&surface| triangulated[surface as usize].edges()).collect();
         let mut directions: Vec<DVec3> = outline.iter().map(|[a, b]| *b - *a).collect();
         directions.sort_by(|a, b| b.length_squared().total_cmp(&a.length_squared()));
         directions.truncate(DIRECTIONS);

@@ -38,16 +38,25 @@ pub struct CoarsePart {
 
 /// A triangulated surface.
 #[derive(Debug)]
-pub(super) struct Sheet {
+pub(super) struct TriangulatedSurface {
     /// Numbers of places around the outer ring and the holes, those that others have on it included.
     pub(super) rings: Vec<Vec<u32>>,
     /// The places of the rings, m, in the same order.
     at: Vec<Vec<DVec3>>,
-    /// Corners, places with their numbers, counter-clockwise.
-    pub(super) triangles: Vec<[(u32, DVec3); 3]>,
+    /// Counter-clockwise.
+    pub(super) triangles: Vec<[SurfaceCorner; 3]>,
 }
 
-impl Sheet {
+/// A corner of a triangle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SurfaceCorner {
+    /// The number of its place.
+    place: u32,
+    /// m.
+    pub(super) position: DVec3,
+}
+
+impl TriangulatedSurface {
     /// The edges of its rings, m.
     pub(super) fn edges(&self) -> impl Iterator<Item = [DVec3; 2]> + '_ {
         self.at.iter().flat_map(|ring| {
@@ -57,7 +66,7 @@ impl Sheet {
 }
 
 /// Triangulates every surface; neighbours agree on their border.
-pub(super) fn sheets(surfaces: &Surfaces) -> Vec<Sheet> {
+pub(super) fn triangulated(surfaces: &Surfaces) -> Vec<TriangulatedSurface> {
     let mut weld = Weld::new(surfaces.tolerance);
     let number = |surface: &Surface| -> Vec<Vec<u32>> {
         let ring = |ring: &Vec<DVec2>| {
@@ -73,10 +82,19 @@ pub(super) fn sheets(surfaces: &Surfaces) -> Vec<Sheet> {
     };
     let rings: Vec<Vec<Vec<u32>>> = surfaces.list.iter().map(number).collect();
     let places = Places::new(&weld, surfaces.extent, surfaces.tolerance);
-    surfaces.list.iter().zip(rings).map(|(surface, rings)| sheet(surface, &places, rings)).collect()
+    surfaces
+        .list
+        .iter()
+        .zip(rings)
+        .map(|(surface, rings)| triangulated_surface(surface, &places, rings))
+        .collect()
 }
 
-fn sheet(surface: &Surface, places: &Places, rings: Vec<Vec<u32>>) -> Sheet {
+fn triangulated_surface(
+    surface: &Surface,
+    places: &Places,
+    rings: Vec<Vec<u32>>,
+) -> TriangulatedSurface {
     let stitched = |ring: Vec<u32>| -> Vec<u32> {
         let next = ring.iter().cycle().skip(1);
         let edges = ring.iter().zip(next);
@@ -89,8 +107,9 @@ fn sheet(surface: &Surface, places: &Places, rings: Vec<Vec<u32>>) -> Sheet {
     let rings: Vec<Vec<u32>> = rings.into_iter().map(stitched).collect();
     let tiles = triangulate(&rings, |place| surface.plane.flatten(places.at(place)));
     let at = |&place: &u32| places.at(place);
-    Sheet {
-        triangles: tiles.iter().map(|tile| tile.corners.map(|p| (p, places.at(p)))).collect(),
+    let corner = |place: u32| SurfaceCorner { place, position: places.at(place) };
+    TriangulatedSurface {
+        triangles: tiles.iter().map(|tile| tile.corners.map(corner)).collect(),
         at: rings.iter().map(|ring| ring.iter().map(at).collect()).collect(),
         rings,
     }
@@ -103,7 +122,7 @@ impl CoarseMesh {
     /// Joins sheets, material by material; `light_uv` says where in the atlas a place of a surface is.
     pub(super) fn new(
         surfaces: &Surfaces,
-        sheets: &[Sheet],
+        triangulated: &[TriangulatedSurface],
         light_uv: impl Fn(usize, DVec3) -> DVec2,
     ) -> Self {
         let mut mesh = Self::default();
@@ -112,10 +131,10 @@ impl CoarseMesh {
             let mut known: BTreeMap<(u32, Bits<10>), u32> = BTreeMap::new();
             for number in members {
                 let surface = &surfaces.list[number];
-                for triangle in &sheets[number].triangles {
-                    let corners = triangle.map(|(place, position)| {
-                        let light_uv = light_uv(number, position).as_vec2();
-                        mesh.vertex(&mut known, surface, (place, position, light_uv))
+                for triangle in &triangulated[number].triangles {
+                    let corners = triangle.map(|corner| {
+                        let light_uv = light_uv(number, corner.position).as_vec2();
+                        mesh.vertex(&mut known, surface, corner, light_uv)
                     });
                     mesh.triangles.push(corners);
                 }
@@ -133,7 +152,8 @@ impl CoarseMesh {
         &mut self,
         known: &mut BTreeMap<(u32, Bits<10>), u32>,
         surface: &Surface,
-        (place, position, light_uv): (u32, DVec3, Vec2),
+        SurfaceCorner { place, position }: SurfaceCorner,
+        light_uv: Vec2,
     ) -> u32 {
         let on_plane = surface.plane.flatten(position);
         let normal = normal_at(surface, on_plane).as_vec3();

@@ -24,7 +24,7 @@ impl Texel {
 
 /// Gives the texels of one kind, in a rectangle, the mean light of those beside them, in so many
 /// steps outward at most.
-pub(super) fn dilate(texels: &mut [Texel], size: UVec2, (kind, steps): (Texel, u32)) {
+pub(super) fn dilate(texels: &mut [Texel], size: UVec2, kind: Texel, steps: u32) {
     let mut wave: Vec<usize> = (0..texels.len()).filter(|&texel| texels[texel] == kind).collect();
     for _ in 0..steps {
         let reached: Vec<(usize, Vec3)> = wave
@@ -68,14 +68,12 @@ fn around(texel: usize, size: UVec2) -> impl Iterator<Item = usize> {
 mod tests {
     use super::*;
 
-    const FAR: (Texel, u32) = (Texel::Outside, u32::MAX);
-
     #[test]
     fn one_lit_texel_fills_its_rectangle() {
         let light = Vec3::new(1.0, 2.0, 3.0);
         let mut texels = [Texel::Outside; 7 * 5];
         texels[9] = Texel::Lit(light);
-        dilate(&mut texels, UVec2::new(7, 5), FAR);
+        dilate(&mut texels, UVec2::new(7, 5), Texel::Outside, u32::MAX);
         let is_filled = |texel: &Texel| texel.light().is_some_and(|l| l.distance(light) < 1e-5);
         assert!(texels.iter().all(is_filled), "{texels:?}");
     }
@@ -85,7 +83,7 @@ mod tests {
         let (x, y, o) = (Texel::Lit(Vec3::X), Texel::Lit(Vec3::Y), Texel::Outside);
         let row = |steps| {
             let mut texels = [x, o, o, o, o, o, y];
-            dilate(&mut texels, UVec2::new(7, 1), (o, steps));
+            dilate(&mut texels, UVec2::new(7, 1), o, steps);
             texels
         };
         assert_eq!(row(1), [x, x, o, o, o, y, y]);
@@ -97,7 +95,7 @@ mod tests {
     #[test]
     fn without_any_light_nothing_changes() {
         let mut texels = [Texel::Outside; 4];
-        dilate(&mut texels, UVec2::new(2, 2), FAR);
+        dilate(&mut texels, UVec2::new(2, 2), Texel::Outside, u32::MAX);
         assert_eq!(texels, [Texel::Outside; 4]);
     }
 }

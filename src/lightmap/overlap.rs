@@ -5,10 +5,10 @@ use glam::DVec2;
 use crate::surface::polygon::{bounds, edges};
 
 /// A triangle, counter-clockwise.
-pub(super) type Triangle = [DVec2; 3];
+pub(super) type FlatTriangle = [DVec2; 3];
 
 /// Whether two triangles have more in common than a border `tolerance` wide.
-pub(super) fn overlap(a: &Triangle, b: &Triangle, tolerance: f64) -> bool {
+pub(super) fn overlap(a: &FlatTriangle, b: &FlatTriangle, tolerance: f64) -> bool {
     let ([a_low, a_high], [b_low, b_high]) = (bounds(a), bounds(b));
     let common = a_high.min(b_high) - a_low.max(b_low);
     common.min_element() > tolerance && !is_beside(a, b, tolerance) && !is_beside(b, a, tolerance)
@@ -16,7 +16,7 @@ pub(super) fn overlap(a: &Triangle, b: &Triangle, tolerance: f64) -> bool {
 
 /// Whether all of `b` lies beyond one edge of `a`; where two convex polygons do not meet, an edge of one
 /// parts them.
-fn is_beside(a: &Triangle, b: &Triangle, tolerance: f64) -> bool {
+fn is_beside(a: &FlatTriangle, b: &FlatTriangle, tolerance: f64) -> bool {
     edges(a).any(|[from, to]| {
         let inward = (to - from).normalize_or_zero().perp();
         b.iter().all(|&corner| (corner - from).dot(inward) <= tolerance)
@@ -27,7 +27,7 @@ fn is_beside(a: &Triangle, b: &Triangle, tolerance: f64) -> bool {
 mod tests {
     use super::*;
 
-    fn triangle(x: f64, y: f64) -> Triangle {
+    fn triangle(x: f64, y: f64) -> FlatTriangle {
         [DVec2::new(x, y), DVec2::new(x + 1.0, y), DVec2::new(x, y + 1.0)]
     }
 

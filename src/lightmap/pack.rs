@@ -3,7 +3,7 @@
 use crunch::{Item, Rect, Rotation};
 use glam::UVec2;
 
-use super::{BLOCK, Chart};
+use super::chart::{BLOCK, Chart};
 
 /// Halvings of the range of densities.
 const HALVINGS: usize = 14;
@@ -18,7 +18,7 @@ pub(super) fn pack(charts: &mut [Chart], size: u32) -> Option<f64> {
     // Turning rectangles helps most atlases and harms some.
     let fitted = |charts: &[Chart], density| {
         let mut either = [Rotation::Allowed, Rotation::None].into_iter();
-        either.find_map(|rotation| packed(charts, density, (blocks, rotation)))
+        either.find_map(|rotation| packed(charts, density, blocks, rotation))
     };
     let mut best = (0.0, fitted(charts, 0.0)?);
     let (mut low, mut high) = (most / 1000.0, most);
@@ -33,7 +33,7 @@ pub(super) fn pack(charts: &mut [Chart], size: u32) -> Option<f64> {
         }
     }
     let (density, places) = best;
-    for (chart, Place { corner, is_turned }) in charts.iter_mut().zip(places) {
+    for (chart, PackedRect { corner, is_turned }) in charts.iter_mut().zip(places) {
         if is_turned {
             chart.turn();
         }
@@ -44,7 +44,7 @@ pub(super) fn pack(charts: &mut [Chart], size: u32) -> Option<f64> {
 
 /// Where a rectangle has come to lie.
 #[derive(Clone, Copy, Default)]
-struct Place {
+struct PackedRect {
     /// Its first block.
     corner: UVec2,
     is_turned: bool,
@@ -54,8 +54,9 @@ struct Place {
 fn packed(
     charts: &[Chart],
     density: f64,
-    (blocks, rotation): (u32, Rotation),
-) -> Option<Vec<Place>> {
+    blocks: u32,
+    rotation: Rotation,
+) -> Option<Vec<PackedRect>> {
     let sizes: Vec<UVec2> = charts.iter().map(|chart| chart.blocks(density)).collect();
     let area: u64 = sizes.iter().map(|size| u64::from(size.x) * u64::from(size.y)).sum();
     if area > u64::from(blocks) * u64::from(blocks) {
@@ -66,10 +67,11 @@ fn packed(
     };
     let square = Rect::of_size(blocks as usize, blocks as usize);
     let packed = crunch::pack(square, sizes.iter().enumerate().map(item)).ok()?;
-    let mut places = vec![Place::default(); charts.len()];
+    let mut places = vec![PackedRect::default(); charts.len()];
     for item in packed {
         let corner = UVec2::new(item.rect.x as u32, item.rect.y as u32);
-        places[item.data] = Place { corner, is_turned: item.rect.w as u32 != sizes[item.data].x };
+        places[item.data] =
+            PackedRect { corner, is_turned: item.rect.w as u32 != sizes[item.data].x };
     }
     Some(places)
 }

@@ -12,16 +12,26 @@
 //! [`document()`] makes a page of them, [`save`] writes it. A page opens from a disk, asks for nothing
 //! over a network and is not able to: its content security policy forbids it.
 //!
-//! ```
-//! use radiosity::page::{self, html};
+//! | what | where |
+//! |---|---|
+//! | whole pages | `document`, `data` |
+//! | without scripts | `table`, `plot`, `image` |
+//! | with scripts | `wipe`, `viewer` |
+//! | what a viewer shows | `model`: numbers by `quantise` on scales of `bulk` and in `colour_maps`, runs by `textured`, `pictures` |
+//! | as bytes | `chunks`, in `base64` |
 //!
-//! let rows = [("elements", "4 120".to_owned()), ("time", "1.9 s".to_owned())];
+//! ```
+//! use radiosity::page::{self, Fact, html};
+//!
+//! let fact = |name, value: &str| Fact { name, value: value.to_owned() };
+//! let rows = [fact("elements", "4 120"), fact("time", "1.9 s")];
 //! let page = page::document("A room", &html! { h1 { "A room" } (page::facts(&rows)) });
 //! assert!(page.into_string().starts_with("<!DOCTYPE html>"));
 //! ```
 
 mod base64;
 mod bulk;
+mod chunks;
 pub(crate) mod colour_maps;
 mod data;
 mod document;
@@ -41,6 +51,6 @@ pub use image::{columns, picture, thirds};
 pub use maud::{Markup, html};
 pub use model::Model;
 pub use plot::{Axis, Curve, Plot, Stroke, plot};
-pub use table::{Cell, Table, facts, table};
+pub use table::{Cell, Fact, Table, facts, table};
 pub use viewer::{Step, Viewer, viewer};
 pub use wipe::{WipePicture, wipe};

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use serde::Serialize;
 
-use super::pictures::Gallery;
+use super::chunks::Chunks;
+use super::pictures::PictureSet;
 use super::textured::{RunRecord, Textured};
-use super::{base64, bulk, quantise};
+use super::{bulk, quantise};
 use crate::colour::Rgb;
 use crate::mesh::Mesh;
 use crate::reconstruct::TriMesh;
@@ -114,7 +115,11 @@ impl Model {
     }
 
     /// What the scripts get; the bytes go to `chunks`, the pictures to `gallery`.
-    pub(super) fn packed<'a>(&'a self, chunks: &mut Chunks, gallery: &mut Gallery<'a>) -> Packed {
+    pub(super) fn packed<'a>(
+        &'a self,
+        chunks: &mut Chunks,
+        gallery: &mut PictureSet<'a>,
+    ) -> Packed {
         let wide = self.positions.len() > 1 + usize::from(u16::MAX);
         let corners = self.corners.iter().flatten().copied();
         let corners: Vec<u8> = match wide {
@@ -176,19 +181,4 @@ pub(super) struct Packed {
     runs: Vec<RunRecord>,
     /// Lists by name, as indices into the chunks; little-endian.
     lists: BTreeMap<&'static str, usize>,
-}
-
-/// Lists of bytes in base64, each kept once: the steps of a solution share most of their mesh.
-#[derive(Debug, Default)]
-pub(super) struct Chunks(pub(super) Vec<String>);
-
-impl Chunks {
-    pub(super) fn add(&mut self, bytes: &[u8]) -> usize {
-        let coded = base64::coded(bytes);
-        let known = self.0.iter().position(|chunk| *chunk == coded);
-        known.unwrap_or_else(|| {
-            self.0.push(coded);
-            self.0.len() - 1
-        })
-    }
 }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
-use super::model::Chunks;
+use super::chunks::Chunks;
 use crate::colour::Rgb;
 use crate::export::picture::{Coding, encoded, encoded_as};
 use crate::scene::{Texture, Wrap, mean};
@@ -17,7 +17,7 @@ const ENOUGH: usize = 4 << 20;
 
 /// The pictures of a viewer's models, each once.
 #[derive(Debug, Default)]
-pub(super) struct Gallery<'a> {
+pub(super) struct PictureSet<'a> {
     textures: Vec<&'a Texture>,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct PictureRecord {
     nearest: bool,
 }
 
-impl<'a> Gallery<'a> {
+impl<'a> PictureSet<'a> {
     /// The number of a texture, added unless it is there.
     pub(super) fn number(&mut self, texture: &'a Texture) -> usize {
         let is_it = |known: &&Texture| {
@@ -51,7 +51,8 @@ impl<'a> Gallery<'a> {
     /// What the scripts get, and the texels that a side has at most if that is less than some picture had; the bytes
     /// go to `chunks`.
     pub(super) fn packed(&self, chunks: &mut Chunks) -> (Vec<PictureRecord>, Option<u32>) {
-        let mut pictures: Vec<Picture> = self.textures.iter().map(|t| Picture::new(t)).collect();
+        let mut pictures: Vec<PackedPicture> =
+            self.textures.iter().map(|t| PackedPicture::new(t)).collect();
         let mut limit = None;
         for side in SIDES {
             for picture in &mut pictures {
@@ -68,7 +69,7 @@ impl<'a> Gallery<'a> {
 }
 
 /// A picture of one size and its bytes.
-struct Picture<'a> {
+struct PackedPicture<'a> {
     texture: Cow<'a, Texture>,
     /// That of the picture in its first size, so that each of its sizes is exposed alike.
     white: f64,
@@ -77,7 +78,7 @@ struct Picture<'a> {
     bytes: Vec<u8>,
 }
 
-impl<'a> Picture<'a> {
+impl<'a> PackedPicture<'a> {
     fn new(texture: &'a Texture) -> Self {
         let white = texture.white();
         let (coding, bytes) = (Coding::of(texture, white), Vec::new());

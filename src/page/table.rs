@@ -85,13 +85,22 @@ fn written(cell: &Cell) -> Markup {
     }
 }
 
-/// What is known of something: names and what they are, row by row.
-pub fn facts(rows: &[(&str, String)]) -> Markup {
+/// Something that is known.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fact<'a> {
+    /// What it is about.
+    pub name: &'a str,
+    /// What it is.
+    pub value: String,
+}
+
+/// What is known of something, row by row.
+pub fn facts(rows: &[Fact<'_>]) -> Markup {
     html! {
         div.scroll {
             table {
                 tbody {
-                    @for (name, value) in rows {
+                    @for Fact { name, value } in rows {
                         tr { th scope="row" { (name) } td { (value) } }
                     }
                 }

@@ -3,7 +3,7 @@
 use glam::Vec2;
 use serde::Serialize;
 
-use super::pictures::Gallery;
+use super::pictures::PictureSet;
 use crate::reconstruct::TriMesh;
 use crate::scene::Texture;
 
@@ -11,7 +11,7 @@ use crate::scene::Texture;
 #[derive(Clone, Debug)]
 pub(super) struct Textured {
     /// Consecutive; together they are all triangles.
-    runs: Vec<Run>,
+    runs: Vec<DrawRun>,
     textures: Vec<Texture>,
     /// By vertex.
     pub(super) uvs: Vec<Vec2>,
@@ -19,7 +19,7 @@ pub(super) struct Textured {
 
 /// Triangles in a row that are drawn alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Run {
+struct DrawRun {
     triangles: usize,
     /// Index into [`Textured::textures`].
     texture: Option<usize>,
@@ -48,8 +48,8 @@ impl Textured {
     }
 
     /// The runs as the scripts get them; their pictures go to `gallery`.
-    pub(super) fn packed<'a>(&'a self, gallery: &mut Gallery<'a>) -> Vec<RunRecord> {
-        let record = |run: &Run| RunRecord {
+    pub(super) fn packed<'a>(&'a self, gallery: &mut PictureSet<'a>) -> Vec<RunRecord> {
+        let record = |run: &DrawRun| RunRecord {
             corners: 3 * run.triangles,
             picture: run.texture.map(|number| gallery.number(&self.textures[number])),
             cutoff: run.cutoff,
@@ -58,21 +58,21 @@ impl Textured {
     }
 }
 
-fn runs(mesh: &TriMesh) -> Vec<Run> {
+fn runs(mesh: &TriMesh) -> Vec<DrawRun> {
     let is_whole = |number: &usize| {
         mesh.textures.get(*number).is_some_and(|texture| {
             let size = texture.width as usize * texture.height as usize;
             size > 0 && texture.texels.len() == size
         })
     };
-    let mut runs: Vec<Run> = Vec::new();
+    let mut runs: Vec<DrawRun> = Vec::new();
     for part in mesh.parts.iter().filter(|part| !part.triangles.is_empty()) {
         let triangles = part.triangles.len();
         let texture = part.texture.map(|number| number as usize).filter(is_whole);
         let cutoff = part.cutoff.filter(|_| texture.is_some());
         match runs.last_mut().filter(|last| (last.texture, last.cutoff) == (texture, cutoff)) {
             Some(last) => last.triangles += triangles,
-            None => runs.push(Run { triangles, texture, cutoff }),
+            None => runs.push(DrawRun { triangles, texture, cutoff }),
         }
     }
     runs

@@ -3,10 +3,11 @@
 use maud::{Markup, html};
 use serde::Serialize;
 
+use super::chunks::Chunks;
 use super::data::inert;
 use super::image::image;
-use super::model::{Chunks, Model, Packed};
-use super::pictures::{Gallery, PictureRecord};
+use super::model::{Model, Packed};
+use super::pictures::{PictureRecord, PictureSet};
 use super::{base64, colour_maps};
 use crate::render::{colours, leaves};
 use crate::scene::Camera;
@@ -43,8 +44,8 @@ pub struct Step {
 /// The viewer's settings and meshes as `viewer.js` reads them.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Record<'a> {
-    camera: CameraRecord,
+struct ViewerRecord<'a> {
+    camera: ViewerCamera,
     /// Factor on radiosity, m²/W, and the same as an exposure value.
     exposure: f64,
     ev: f64,
@@ -65,7 +66,7 @@ struct Record<'a> {
 }
 
 #[derive(Serialize)]
-struct CameraRecord {
+struct ViewerCamera {
     eye: [f64; 3],
     target: [f64; 3],
     up: [f64; 3],
@@ -114,9 +115,9 @@ pub fn viewer(viewer: &Viewer<'_>) -> Markup {
 }
 
 /// What the scripts get, and how many texels a side has at most where that is less than there were.
-fn record<'a>(viewer: &Viewer<'a>) -> (Record<'a>, Option<u32>) {
+fn record<'a>(viewer: &Viewer<'a>) -> (ViewerRecord<'a>, Option<u32>) {
     let models = || viewer.steps.iter().map(|step| &step.model);
-    let (mut chunks, mut gallery) = (Chunks::default(), Gallery::default());
+    let (mut chunks, mut gallery) = (Chunks::default(), PictureSet::default());
     let step = |step: &'a Step| StepRecord {
         label: &step.label,
         model: step.model.packed(&mut chunks, &mut gallery),
@@ -124,8 +125,8 @@ fn record<'a>(viewer: &Viewer<'a>) -> (Record<'a>, Option<u32>) {
     let steps = viewer.steps.iter().map(step).collect();
     let (pictures, limit) = gallery.packed(&mut chunks);
     let Camera { eye, target, up, vertical_fov, .. } = viewer.camera;
-    let record = Record {
-        camera: CameraRecord {
+    let record = ViewerRecord {
+        camera: ViewerCamera {
             eye: eye.to_array(),
             target: target.to_array(),
             up: up.to_array(),

@@ -7,7 +7,7 @@ use glam::{DVec3, Vec2, Vec3};
 use super::LightShare;
 use crate::colour::Rgb;
 use crate::mesh::ElementId;
-use crate::scene::boxes::{Bounds, local_origin};
+use crate::scene::boxes::local_origin;
 use crate::scene::{Camera, Node, Texture};
 
 /// A conforming triangle mesh; all per-vertex lists are as long as `positions`.
@@ -72,8 +72,8 @@ impl TriMesh {
 
     /// Where coordinates in single precision are to begin, m: the origin, unless the mesh is far from it.
     pub fn local_origin(&self) -> DVec3 {
-        let bounds: Bounds = self.bounds();
-        local_origin(bounds).unwrap_or_default()
+        let (low, high) = self.bounds();
+        local_origin(low, high).unwrap_or_default()
     }
 
     /// Least and greatest coordinates of the triangles, m; both zero if there is none.

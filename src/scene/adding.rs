@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use glam::DVec3;
 
-use super::load::{MAX_RADIANCE, tamed};
+use super::limits::{MAX_RADIANCE, tamed};
 use super::{Face, Material, Scene, area_vector};
 use crate::colour::{LUMENS_PER_WATT, Rgb};
 use crate::error::{Error, Result};

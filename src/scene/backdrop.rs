@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::sides::{on_sphere, spread};
-use super::sight::Sight;
+use super::ray_casting::{ProbeRay, RayCaster};
+use super::sequence::{on_sphere, on_triangle, spread};
 use super::{Face, Light, Scene};
 
 /// Places that look for the sun, and for the sky, these in so many directions each.
@@ -13,12 +13,12 @@ const SKY_DIRECTIONS: usize = 64;
 
 /// One of a scene's materials or objects.
 #[derive(Clone, Copy)]
-enum Group {
+enum Surround {
     Material(u32),
     Object(u32),
 }
 
-impl Group {
+impl Surround {
     fn has(self, face: &Face) -> bool {
         match self {
             Self::Material(material) => face.material == material,
@@ -34,12 +34,12 @@ impl Scene {
     pub fn note_backdrop(&mut self) {
         let Some(group) = self.backdrop() else { return };
         let around = match group {
-            Group::Material(_) => "material",
-            Group::Object(_) => "object",
+            Surround::Material(_) => "material",
+            Surround::Object(_) => "object",
         };
         let (name, mut materials) = match group {
-            Group::Material(index) => (self.materials[index as usize].name.clone(), vec![index]),
-            Group::Object(index) => {
+            Surround::Material(index) => (self.materials[index as usize].name.clone(), vec![index]),
+            Surround::Object(index) => {
                 let faces = self.faces.iter().filter(|face| face.object == index);
                 (self.objects[index as usize].clone(), faces.map(|face| face.material).collect())
             }
@@ -56,29 +56,30 @@ impl Scene {
     }
 
     /// What hides sun and sky from all that is not part of it.
-    fn backdrop(&self) -> Option<Group> {
+    fn backdrop(&self) -> Option<Surround> {
         let lights: Vec<&Light> = self.lights.iter().map(|named| &named.light).collect();
         let lights: Vec<&Light> =
             lights.into_iter().filter(|light| light.position().is_none()).collect();
         let first = self.faces.first().filter(|_| !lights.is_empty())?;
-        let sight = Sight::new(self);
+        let caster = RayCaster::new(self);
         let (low, high) = self.bounds()?;
-        let above = sight.last(low.midpoint(high), DVec3::Y).map(|face| &self.faces[face as usize]);
+        let upward = ProbeRay { start: low.midpoint(high), direction: DVec3::Y };
+        let above = caster.last(&upward).map(|face| &self.faces[face as usize]);
         let face = above.unwrap_or(first);
-        [Group::Material(face.material), Group::Object(face.object)]
+        [Surround::Material(face.material), Surround::Object(face.object)]
             .into_iter()
-            .find(|&group| lights.iter().all(|light| self.hides(&sight, group, light)))
+            .find(|&group| lights.iter().all(|light| self.hides(&caster, group, light)))
     }
 
     /// Whether a light from far away reaches nothing but a group.
-    fn hides(&self, sight: &Sight<'_>, group: Group, light: &Light) -> bool {
-        let others: Vec<[DVec3; 3]> = sight
+    fn hides(&self, caster: &RayCaster<'_>, group: Surround, light: &Light) -> bool {
+        let others: Vec<[DVec3; 3]> = caster
             .triangles()
             .filter(|(face, _)| !group.has(&self.faces[*face as usize]))
             .map(|(_, corners)| corners)
             .collect();
-        let is_hidden = |place: DVec3, direction: DVec3| {
-            let last = sight.last(place, direction);
+        let is_hidden = |start: DVec3, direction: DVec3| {
+            let last = caster.last(&ProbeRay { start, direction });
             last.is_some_and(|face| group.has(&self.faces[face as usize]))
         };
         let towards = match *light {
@@ -108,8 +109,7 @@ fn spread_over(triangles: &[[DVec3; 3]], count: usize) -> impl Iterator<Item = D
     (0..count).map(move |index| {
         let passed = (index as f64 + 0.5) / count as f64 * area;
         let number = areas.partition_point(|&upto| upto <= passed).min(triangles.len() - 1);
-        let ([a, b, c], [s, t, ..]) = (triangles[number], spread(index));
-        let (s, t) = if s + t > 1.0 { (1.0 - s, 1.0 - t) } else { (s, t) };
-        a + s * (b - a) + t * (c - a)
+        let [s, t, ..] = spread(index);
+        on_triangle(triangles[number], s, t)
     })
 }

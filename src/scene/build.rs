@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::load::{MAX_COORDINATE, MAX_RADIANCE};
+use super::limits::{MAX_COORDINATE, MAX_RADIANCE};
 use super::polygon::{area_vector, bulge, longest_edge};
 use super::repair::{MIN_AREA, clean};
 use super::{Face, Light, MAX_REFLECTANCE, Material, Scene, Texture};

@@ -5,8 +5,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::sides::{on_sphere, spread};
-use super::sight::Sight;
+use super::ray_casting::{ProbeRay, RayCaster};
+use super::sequence::{on_sphere, on_triangle, spread};
 use super::{Light, Scene};
 
 /// Directions in which a place looks for light.
@@ -25,7 +25,7 @@ const PLACES: usize = 1024;
 pub(super) const FEWEST_ENTERED: usize = 4;
 
 /// Numbers of places in rooms that light from outside reaches straight, on fronts and on backs.
-pub(super) fn entering(scene: &Scene, sight: &Sight<'_>) -> [usize; 2] {
+pub(super) fn entering(scene: &Scene, caster: &RayCaster<'_>) -> [usize; 2] {
     let far = |light: &&Light| {
         matches!(light, Light::Directional { .. } | Light::Sun { .. } | Light::Sky { .. })
     };
@@ -33,62 +33,66 @@ pub(super) fn entering(scene: &Scene, sight: &Sight<'_>) -> [usize; 2] {
     if lights.is_empty() {
         return [0; 2];
     }
-    let places = places(sight, PLACES);
-    let entered: Vec<[bool; 2]> = places
+    let entered: Vec<[bool; 2]> = look_points(caster, PLACES)
         .par_iter()
-        .enumerate()
-        .map(|(index, &(place, normal))| {
-            [normal, -normal].map(|up| {
-                sees_light(sight, &lights, index, (place, up))
-                    && is_enclosed(sight, index, (place, up))
-            })
+        .map(|front| {
+            let back = &LookPoint { up: -front.up, ..*front };
+            [front, back].map(|out| out.sees_light(caster, &lights) && out.is_enclosed(caster))
         })
         .collect();
     [0, 1].map(|side| entered.iter().filter(|sides| sides[side]).count())
 }
 
-/// Places on faces and the faces' unit normals; more on larger ones, as the square roots of their areas, so that
+/// A place on a face, to look from.
+struct LookPoint {
+    /// Which of the places it is: each has directions of its own.
+    index: usize,
+    place: DVec3,
+    /// Unit normal of the side that looks.
+    up: DVec3,
+}
+
+/// Places on the fronts of faces; more on larger ones, as the square roots of their areas, so that
 /// a plain round a house does not get them all.
-fn places(sight: &Sight<'_>, count: usize) -> Vec<(DVec3, DVec3)> {
+fn look_points(caster: &RayCaster<'_>, count: usize) -> Vec<LookPoint> {
     let weight = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).length().sqrt();
-    let total: f64 = sight.triangles().map(|(_, corners)| weight(corners)).sum();
-    let (mut passed, mut places) = (0.0, Vec::with_capacity(count));
-    for (_, corners) in sight.triangles() {
+    let total: f64 = caster.triangles().map(|(_, corners)| weight(corners)).sum();
+    let (mut passed, mut look_points) = (0.0, Vec::with_capacity(count));
+    for (_, corners) in caster.triangles() {
         passed += weight(corners);
         let [a, b, c] = corners;
-        let normal = (b - a).cross(c - a).normalize_or_zero();
-        while (places.len() as f64 + 0.5) / (count as f64) < passed / total {
-            let [s, t, ..] = spread(places.len());
-            let (s, t) = if s + t > 1.0 { (1.0 - s, 1.0 - t) } else { (s, t) };
-            places.push((a + s * (b - a) + t * (c - a), normal));
+        let up = (b - a).cross(c - a).normalize_or_zero();
+        while (look_points.len() as f64 + 0.5) / (count as f64) < passed / total {
+            let index = look_points.len();
+            let [s, t, ..] = spread(index);
+            look_points.push(LookPoint { index, place: on_triangle(corners, s, t), up });
         }
     }
-    places
+    look_points
 }
 
-fn sees_light(
-    sight: &Sight<'_>,
-    lights: &[&Light],
-    index: usize,
-    (place, up): (DVec3, DVec3),
-) -> bool {
-    (0..LOOKS).any(|look| {
-        let number = LOOKS * index + look;
-        let towards = match *lights[number % lights.len()] {
-            Light::Directional { direction, .. } | Light::Sun { direction, .. } => -direction,
-            _ => {
-                let [u, v, ..] = spread(number);
-                on_sphere((1.0 + u) / 2.0, v)
-            }
+impl LookPoint {
+    fn sees_light(&self, caster: &RayCaster<'_>, lights: &[&Light]) -> bool {
+        (0..LOOKS).any(|look| {
+            let number = LOOKS * self.index + look;
+            let direction = match *lights[number % lights.len()] {
+                Light::Directional { direction, .. } | Light::Sun { direction, .. } => -direction,
+                _ => {
+                    let [u, v, ..] = spread(number);
+                    on_sphere((1.0 + u) / 2.0, v)
+                }
+            };
+            let ray = ProbeRay { start: self.place, direction };
+            direction.dot(self.up) > 0.0 && caster.first(&ray).is_none()
+        })
+    }
+
+    fn is_enclosed(&self, caster: &RayCaster<'_>) -> bool {
+        let meets_wall = |look: &usize| {
+            let [.., u, v] = spread(AROUND * self.index + look);
+            let direction = (self.up + on_sphere(u, v)).normalize_or(self.up);
+            caster.first(&ProbeRay { start: self.place, direction }).is_some()
         };
-        towards.dot(up) > 0.0 && sight.first(place, towards).is_none()
-    })
-}
-
-fn is_enclosed(sight: &Sight<'_>, index: usize, (place, up): (DVec3, DVec3)) -> bool {
-    let meets_wall = |look: &usize| {
-        let [.., u, v] = spread(AROUND * index + look);
-        sight.first(place, (up + on_sphere(u, v)).normalize_or(up)).is_some()
-    };
-    (0..AROUND).filter(meets_wall).count() >= ENCLOSED
+        (0..AROUND).filter(meets_wall).count() >= ENCLOSED
+    }
 }

@@ -19,7 +19,7 @@ const MOST_ANGLES: usize = 4096;
 const SURPLUS: f64 = 0.05;
 
 /// What is wrong, and in which line, counted from 1.
-type Wrong = (usize, String);
+type IesError = (usize, String);
 
 impl Scene {
     /// Adds the luminaire of an IES file at a position, m, aimed down, turned by so many degrees counter-clockwise
@@ -52,7 +52,7 @@ struct Numbers<'a> {
 }
 
 impl Numbers<'_> {
-    fn next(&mut self, what: &str) -> std::result::Result<f64, Wrong> {
+    fn next(&mut self, what: &str) -> std::result::Result<f64, IesError> {
         let Some((line, word)) = self.words.next() else {
             return Err((self.line, format!("the file ends before {what}")));
         };
@@ -61,7 +61,7 @@ impl Numbers<'_> {
         number.ok_or_else(|| (line, format!("{what}: \"{word}\" is not a number")))
     }
 
-    fn count(&mut self, what: &str, most: usize) -> std::result::Result<usize, Wrong> {
+    fn count(&mut self, what: &str, most: usize) -> std::result::Result<usize, IesError> {
         let number = self.next(what)?;
         if number.fract() == 0.0 && number >= 1.0 && number <= most as f64 {
             return Ok(number as usize);
@@ -75,7 +75,7 @@ impl Numbers<'_> {
         count: usize,
         what: &str,
         limit: f64,
-    ) -> std::result::Result<Vec<f64>, Wrong> {
+    ) -> std::result::Result<Vec<f64>, IesError> {
         let mut angles: Vec<f64> = Vec::new();
         for _ in 0..count {
             let angle = self.next(what)?;
@@ -91,7 +91,7 @@ impl Numbers<'_> {
     }
 
     /// Past the table of a lamp's output by its tilt.
-    fn skip_tilt(&mut self) -> std::result::Result<(), Wrong> {
+    fn skip_tilt(&mut self) -> std::result::Result<(), IesError> {
         self.next("lamp's position in the luminaire")?;
         let count = self.count("number of tilt angles", MOST_ANGLES)?;
         for what in ["tilt angles", "factors by tilt"] {
@@ -103,7 +103,7 @@ impl Numbers<'_> {
     }
 
     /// So many numbers, all at least zero.
-    fn candela(&mut self, count: usize) -> std::result::Result<Vec<f64>, Wrong> {
+    fn candela(&mut self, count: usize) -> std::result::Result<Vec<f64>, IesError> {
         let mut candela = Vec::new();
         for _ in 0..count {
             let value = self.next("candela values")?;
@@ -117,8 +117,8 @@ impl Numbers<'_> {
 }
 
 /// The table of a file, and what is strange about it.
-fn parse(text: &str) -> std::result::Result<(Photometry, Vec<String>), Wrong> {
-    let Header { tilt, line, rest, name, has_factor } = Header::read(text)?;
+fn parse(text: &str) -> std::result::Result<(Photometry, Vec<String>), IesError> {
+    let IesHeader { tilt, line, rest, name, has_factor } = IesHeader::read(text)?;
     let lines = std::iter::once((line, rest)).chain((line + 1..).zip(text.lines().skip(line)));
     let words = lines.flat_map(|(line, text)| {
         let separates = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '\u{1a}' | '\0');
@@ -170,7 +170,7 @@ fn parse(text: &str) -> std::result::Result<(Photometry, Vec<String>), Wrong> {
 }
 
 /// What stands before the figures.
-struct Header<'a> {
+struct IesHeader<'a> {
     /// `NONE`, `INCLUDE` or the name of a file.
     tilt: &'a str,
     /// The line that says so, from 1.
@@ -184,8 +184,8 @@ struct Header<'a> {
     has_factor: bool,
 }
 
-impl<'a> Header<'a> {
-    fn read(text: &'a str) -> std::result::Result<Self, Wrong> {
+impl<'a> IesHeader<'a> {
+    fn read(text: &'a str) -> std::result::Result<Self, IesError> {
         const TILT: &str = "TILT=";
         let (mut name, mut has_factor) = (String::new(), true);
         for (index, line) in text.lines().enumerate() {
@@ -211,7 +211,7 @@ impl<'a> Header<'a> {
     }
 }
 
-fn type_c(numbers: &mut Numbers<'_>) -> std::result::Result<(), Wrong> {
+fn type_c(numbers: &mut Numbers<'_>) -> std::result::Result<(), IesError> {
     let name = match numbers.count("photometric type", 3)? {
         1 => return Ok(()),
         2 => "B",
@@ -225,7 +225,7 @@ fn type_c(numbers: &mut Numbers<'_>) -> std::result::Result<(), Wrong> {
 }
 
 /// Horizontal angles that say by which symmetry the others follow.
-fn symmetric(numbers: &mut Numbers<'_>, count: usize) -> std::result::Result<Vec<f64>, Wrong> {
+fn symmetric(numbers: &mut Numbers<'_>, count: usize) -> std::result::Result<Vec<f64>, IesError> {
     let angles = numbers.angles(count, "horizontal angles", 360.0)?;
     let ends = [angles[0], angles[count - 1]];
     let known = [[0.0, 0.0], [0.0, 90.0], [0.0, 180.0], [0.0, 360.0], [90.0, 270.0]];

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
-use super::boxes::{Tree, are_close};
+use super::boxes::{self, Tree, are_close};
 use super::notes::note_count;
 use super::{Face, Scene};
 
@@ -23,11 +23,24 @@ const EXACT: f64 = 1e-9;
 /// Corners are moved onto edges whose ends may be moved, too.
 const PASSES: usize = 3;
 
-/// A vertex in the edge that begins at a corner of a face.
+/// The edge that begins at a corner of a face.
 #[derive(Clone, Copy, Debug)]
-struct Junction {
+struct FaceEdge {
     face: usize,
     corner: usize,
+}
+
+impl FaceEdge {
+    fn ends(self, scene: &Scene) -> [u32; 2] {
+        let vertices = &scene.faces[self.face].vertices;
+        [vertices[self.corner], vertices[(self.corner + 1) % vertices.len()]]
+    }
+}
+
+/// A vertex in an edge.
+#[derive(Clone, Copy, Debug)]
+struct Junction {
+    edge: FaceEdge,
     vertex: u32,
     /// How far along the edge, 0..1.
     share: f64,
@@ -66,7 +79,7 @@ fn straighten(scene: &mut Scene, mut off: Vec<Junction>, moved: &mut HashSet<u32
     off.dedup_by_key(|junction| junction.vertex);
     let mut now = HashSet::new();
     for junction in off {
-        let ends = edge(&scene.faces[junction.face], junction.corner);
+        let ends = junction.edge.ends(scene);
         if ends.iter().all(|end| !now.contains(end)) {
             let [a, b] = ends.map(|end| scene.positions[end as usize]);
             scene.positions[junction.vertex as usize] = a.lerp(b, junction.share);
@@ -78,22 +91,16 @@ fn straighten(scene: &mut Scene, mut off: Vec<Junction>, moved: &mut HashSet<u32
 
 const EQUAL: std::cmp::Ordering = std::cmp::Ordering::Equal;
 
-/// The edge that begins at a corner.
-fn edge(face: &Face, corner: usize) -> [u32; 2] {
-    [face.vertices[corner], face.vertices[(corner + 1) % face.vertices.len()]]
-}
-
 /// All junctions, those of a face in the order of its outline.
 fn find(scene: &Scene) -> Vec<Junction> {
-    let open = Open::new(scene);
-    let of_edge = |near: &mut Vec<u32>, &place: &(usize, usize)| open.inside(scene, place, near);
+    let open = OpenEdges::new(scene);
+    let of_edge = |near: &mut Vec<u32>, &edge: &FaceEdge| open.inside(scene, edge, near);
     open.edges.par_iter().map_init(Vec::new, of_edge).flatten_iter().collect()
 }
 
 /// The open edges of a scene.
-struct Open {
-    /// Faces and the corners at which the edges begin.
-    edges: Vec<(usize, usize)>,
+struct OpenEdges {
+    edges: Vec<FaceEdge>,
     /// What each vertex is joined to by open edges.
     joined: HashMap<u32, SmallVec<[u32; 4]>>,
     /// Length of the shortest of all edges at a vertex, m.
@@ -103,19 +110,18 @@ struct Open {
     tree: Tree,
 }
 
-impl Open {
+impl OpenEdges {
     fn new(scene: &Scene) -> Self {
-        let corners = || {
-            let faces = scene.faces.iter().enumerate();
-            faces.flat_map(|(k, face)| (0..face.vertices.len()).map(move |corner| (k, corner)))
+        let all_edges = || {
+            let counts = scene.faces.iter().map(|face| face.vertices.len()).enumerate();
+            counts.flat_map(|(face, n)| (0..n).map(move |corner| FaceEdge { face, corner }))
         };
-        let ends = |(face, corner): (usize, usize)| edge(&scene.faces[face], corner);
-        let all: HashSet<[u32; 2]> = corners().map(ends).collect();
+        let all: HashSet<[u32; 2]> = all_edges().map(|edge| edge.ends(scene)).collect();
         let mut shortest = vec![f64::INFINITY; scene.positions.len()];
         let mut joined: HashMap<u32, SmallVec<[u32; 4]>> = HashMap::new();
         let mut edges = Vec::new();
-        for place in corners() {
-            let [a, b] = ends(place);
+        for edge in all_edges() {
+            let [a, b] = edge.ends(scene);
             let length = scene.positions[a as usize].distance(scene.positions[b as usize]);
             for (one, other) in [(a, b), (b, a)] {
                 shortest[one as usize] = shortest[one as usize].min(length);
@@ -124,30 +130,23 @@ impl Open {
                 }
             }
             if !all.contains(&[b, a]) {
-                edges.push(place);
+                edges.push(edge);
             }
         }
         let mut ends: Vec<u32> = joined.keys().copied().collect();
         ends.sort_unstable();
-        let place =
-            |&vertex: &u32| (scene.positions[vertex as usize], scene.positions[vertex as usize]);
-        let tree = Tree::new(ends.iter().map(place).collect());
+        let of_point = |&vertex: &u32| boxes::around([scene.positions[vertex as usize]]);
+        let tree = Tree::new(ends.iter().map(of_point).collect());
         Self { edges, joined, shortest, ends, tree }
     }
 
     /// The vertices in an edge, in their order along it.
-    fn inside(
-        &self,
-        scene: &Scene,
-        (face, corner): (usize, usize),
-        near: &mut Vec<u32>,
-    ) -> Vec<Junction> {
-        let own = &scene.faces[face];
+    fn inside(&self, scene: &Scene, edge: FaceEdge, near: &mut Vec<u32>) -> Vec<Junction> {
+        let own = &scene.faces[edge.face];
         let at = |vertex: u32| scene.positions[vertex as usize];
-        let [a, b] = edge(own, corner).map(at);
+        let [a, b] = edge.ends(scene).map(at);
         let length = a.distance(b);
-        let margin = DVec3::splat(ON_EDGE * length);
-        let around = (a.min(b) - margin, a.max(b) + margin);
+        let around = boxes::around([a, b]).grown(ON_EDGE * length);
         self.tree.find(|bounds| are_close(around, bounds, 0.0), near);
         let junction = |&number: &u32| {
             let vertex = self.ends[number as usize];
@@ -163,7 +162,7 @@ impl Open {
             let inside = apart <= reach && way > reach && way < length - reach;
             let is_junction = inside && self.joined[&vertex].iter().any(runs_along);
             let (share, apart) = (way / length, apart / length);
-            is_junction.then_some(Junction { face, corner, vertex, share, apart })
+            is_junction.then_some(Junction { edge, vertex, share, apart })
         };
         let mut found: Vec<Junction> = near.iter().filter_map(junction).collect();
         found.sort_by(|a, b| a.share.total_cmp(&b.share));
@@ -181,7 +180,7 @@ fn measured(offset: DVec3, direction: DVec3) -> (f64, f64) {
 fn insert(scene: &mut Scene, found: Vec<Junction>) {
     let mut of_face: HashMap<usize, Vec<Junction>> = HashMap::new();
     for junction in found {
-        of_face.entry(junction.face).or_default().push(junction);
+        of_face.entry(junction.edge.face).or_default().push(junction);
     }
     for (face, junctions) in of_face {
         scene.faces[face] = with_corners(&scene.faces[face], &junctions);
@@ -197,7 +196,7 @@ fn with_corners(face: &Face, junctions: &[Junction]) -> Face {
     let count = face.vertices.len();
     for corner in 0..count {
         let next = (corner + 1) % count;
-        let here = junctions.iter().filter(|junction| junction.corner == corner);
+        let here = junctions.iter().filter(|junction| junction.edge.corner == corner);
         let places = here.map(|junction| (junction.vertex, junction.share));
         for (vertex, share) in std::iter::once((face.vertices[corner], 0.0)).chain(places) {
             grown.vertices.push(vertex);
@@ -283,7 +282,8 @@ mod tests {
             uvs: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(DVec2::from).as_slice().into(),
             ..Face::default()
         };
-        let junction = Junction { face: 0, corner: 1, vertex: 3, share: 0.25, apart: 0.0 };
+        let junction =
+            Junction { edge: FaceEdge { face: 0, corner: 1 }, vertex: 3, share: 0.25, apart: 0.0 };
         let grown = with_corners(&face, &[junction]);
         assert_eq!(grown.vertices[..], [7, 8, 3, 9]);
         assert_eq!(grown.uvs[2], DVec2::new(0.75, 0.25));

@@ -6,7 +6,7 @@ use std::path::Path;
 use toml::{Spanned, Value};
 
 use super::adding::Amount;
-use super::load::limit_materials;
+use super::limits::limit_materials;
 use super::notes::{counted, listed};
 use super::{Material, Scene};
 use crate::colour::Rgb;
@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 type Tables = BTreeMap<Spanned<String>, BTreeMap<Spanned<String>, Value>>;
 
 /// A message and the byte of the file that it is about.
-type Wrong = (usize, String);
+type OverrideError = (usize, String);
 
 impl Scene {
     /// Changes materials as a TOML file says: a table for each name, or pattern with `*` and `?`, with
@@ -37,7 +37,7 @@ impl Scene {
         })
     }
 
-    fn override_by(&mut self, text: &str) -> std::result::Result<(), Wrong> {
+    fn override_by(&mut self, text: &str) -> std::result::Result<(), OverrideError> {
         let parsed: std::result::Result<Tables, _> = toml::from_str(text);
         let tables = parsed.map_err(|error| {
             let start = error.span().map_or(0, |span| span.start);

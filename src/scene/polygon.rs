@@ -38,9 +38,9 @@ fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
 /// True if no two edges touch except neighbours in their common corner.
 pub(crate) fn is_simple(corners: &[DVec2]) -> bool {
     let count = corners.len();
-    let edge = |index: usize| (corners[index], corners[(index + 1) % count]);
+    let edge = |index: usize| [corners[index], corners[(index + 1) % count]];
     let spike = (0..count).any(|index| {
-        let ((a, b), (_, c)) = (edge(index), edge((index + 1) % count));
+        let ([a, b], [_, c]) = (edge(index), edge((index + 1) % count));
         turn(a, b, c) == 0.0 && (b - a).dot(c - b) < 0.0
     });
     let neighbours =
@@ -50,7 +50,7 @@ pub(crate) fn is_simple(corners: &[DVec2]) -> bool {
     !spike && !pairs.any(|(i, j)| !neighbours(i, j) && segments_touch(edge(i), edge(j)))
 }
 
-fn segments_touch((a, b): (DVec2, DVec2), (c, d): (DVec2, DVec2)) -> bool {
+fn segments_touch([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
     let boxes_meet = a.min(b).cmple(c.max(d)).all() && c.min(d).cmple(a.max(b)).all();
     let opposite =
         |first: f64, second: f64| !((first > 0.0 && second > 0.0) || (first < 0.0 && second < 0.0));

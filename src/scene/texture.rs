@@ -31,7 +31,7 @@ impl UvMapping {
 
 /// A texture of a scene and the coordinates it is read with.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Picture {
+pub(crate) struct MappedTexture {
     pub(crate) texture: u32,
     pub(crate) mapping: UvMapping,
 }
@@ -43,8 +43,8 @@ pub(crate) struct Picture {
 pub(crate) fn attach_pictures(
     scene: &mut Scene,
     material: &mut Material,
-    reflectance: Option<Picture>,
-    emission: Option<Picture>,
+    reflectance: Option<MappedTexture>,
+    emission: Option<MappedTexture>,
 ) -> UvMapping {
     material.texture = reflectance.map(|picture| picture.texture);
     if let Some(picture) = reflectance {
@@ -188,7 +188,7 @@ mod tests {
         };
         let mut material = Material { emission: Rgb::splat(4.0), ..Material::default() };
         let picture = |texture, set| {
-            Some(Picture { texture, mapping: UvMapping { set, ..UvMapping::default() } })
+            Some(MappedTexture { texture, mapping: UvMapping { set, ..UvMapping::default() } })
         };
         let mapping = attach_pictures(&mut scene, &mut material, picture(0, 0), picture(1, 1));
         assert_eq!((mapping.set, material.texture, material.emission_texture), (0, Some(0), None));

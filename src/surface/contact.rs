@@ -10,9 +10,10 @@
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
+use super::model::{Contact, Surface};
+use super::plane::Plane;
 use super::polygon::{Line, Ring, Segment, contains, distance, edges};
-use super::{Plane, Surface};
-use crate::scene::boxes::{Bounds, Tree, are_close};
+use crate::scene::boxes::{Aabb, Tree, are_close};
 
 /// What faces a surface from less than this share of the scene's extent hovers close over it: a wider gap is wide
 /// enough for elements of its own, few times as large as the smallest of [`Settings::draft`].
@@ -33,18 +34,9 @@ const SMALLEST: f64 = 1.0 / 2000.0;
 /// Surfaces smaller than so many of the smallest elements cannot be divided, and get no lines.
 const DIVISIBLE: f64 = 2.0;
 
-/// A line on a surface along which another surface meets it, or ends close over it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contact {
-    /// Where it runs, in coordinates of the surface's plane, m.
-    pub segment: Segment,
-    /// How far over the surface the other ends, m; 0 where they meet.
-    pub gap: f64,
-}
-
 /// Distances, m.
 #[derive(Clone, Copy, Debug)]
-struct Near {
+struct ContactLimits {
     /// This far from a plane is in it.
     tolerance: f64,
     /// This far from a surface may be close to it.
@@ -56,9 +48,9 @@ struct Near {
 /// Finds the contact lines of every surface with every other, in a scene of this extent, m, and stores
 /// them in both.
 pub(super) fn find_contacts(surfaces: &mut [Surface], extent: f64, tolerance: f64) {
-    let near = Near::new(extent, tolerance);
+    let near = ContactLimits::new(extent, tolerance);
     let all = &*surfaces;
-    let tree = Tree::new(all.par_iter().map(Surface::bounds).collect());
+    let tree = Tree::new(all.par_iter().map(Surface::aabb).collect());
     let lines_of = |found: &mut Vec<u32>, receiver: usize| {
         near.find_neighbours(&tree, &all[receiver].plane, receiver, found);
         let others = found.iter().map(|&other| other as usize).filter(|&other| other != receiver);
@@ -69,34 +61,30 @@ pub(super) fn find_contacts(surfaces: &mut [Surface], extent: f64, tolerance: f6
     surfaces.iter_mut().zip(lines).for_each(|(surface, lines)| surface.contacts = lines);
 }
 
-fn size((low, high): Bounds) -> f64 {
-    low.distance(high)
-}
-
-impl Near {
+impl ContactLimits {
     fn new(extent: f64, tolerance: f64) -> Self {
         Self { tolerance, close: CLOSE * extent, smallest: SMALLEST * extent }
     }
 
     /// How far what hovers close over a surface may be, m; over two of them, the smaller counts.
-    fn reach(&self, bounds: Bounds) -> f64 {
-        self.close.min(CLOSE_FOR_SIZE * size(bounds)).max(2.0 * self.tolerance)
+    fn reach(&self, bounds: Aabb) -> f64 {
+        self.close.min(CLOSE_FOR_SIZE * bounds.diagonal()).max(2.0 * self.tolerance)
     }
 
     /// The surfaces that may have lines on one: those with a part close over it or in its plane.
     fn find_neighbours(&self, tree: &Tree, plane: &Plane, receiver: usize, found: &mut Vec<u32>) {
         found.clear();
         let bounds = tree.boxes()[receiver];
-        if size(bounds) < DIVISIBLE * self.smallest {
+        if bounds.diagonal() < DIVISIBLE * self.smallest {
             return;
         }
         let reach = self.reach(bounds);
-        let meets = |(low, high): Bounds| {
-            let middle = plane.height(low.midpoint(high));
-            let around = (high - low).dot(plane.normal.abs()) / 2.0;
+        let meets = |other: Aabb| {
+            let middle = plane.height(other.middle());
+            let around = other.half_extent(plane.normal);
             // Twice the tolerance, so that rounding loses nothing.
-            size((low, high)) >= self.smallest
-                && are_close(bounds, (low, high), reach)
+            other.diagonal() >= self.smallest
+                && are_close(bounds, other, reach)
                 && middle - around <= reach + self.tolerance
                 && middle + around >= -2.0 * self.tolerance
         };
@@ -107,7 +95,7 @@ impl Near {
     fn lines(
         &self,
         surfaces: &[Surface],
-        bounds: &[Bounds],
+        bounds: &[Aabb],
         [receiver, other]: [usize; 2],
     ) -> Vec<Contact> {
         let close = self.reach(bounds[receiver]).min(self.reach(bounds[other]));
@@ -262,10 +250,10 @@ mod tests {
 
     /// Lines of all pairs, large enough, with the same distances.
     fn of_all_pairs(Surfaces { list, extent, tolerance, .. }: &Surfaces) -> Vec<Vec<Contact>> {
-        let near = Near::new(*extent, *tolerance);
+        let near = ContactLimits::new(*extent, *tolerance);
         let size = |k: usize| list[k].extent();
         let lines = |receiver: usize, other: usize| {
-            let reach = near.reach(list[receiver].bounds()).min(near.reach(list[other].bounds()));
+            let reach = near.reach(list[receiver].aabb()).min(near.reach(list[other].aabb()));
             contacts(&list[receiver], &list[other], [*tolerance, reach])
         };
         let of = |receiver: usize| {

@@ -21,7 +21,7 @@ pub struct Cuts<'a> {
 }
 
 /// A convex cell and the parts of segments that run through its inside.
-struct Cell {
+struct BspCell {
     polygon: Convex,
     segments: Vec<Segment>,
 }
@@ -34,7 +34,7 @@ pub fn convex_pieces(rings: &[Ring], cuts: &Cuts<'_>) -> Vec<Convex> {
     let segments = outline.chain(cuts.segments.iter().copied());
 
     let mut pieces = Vec::new();
-    let mut cells = vec![Cell::new(rectangle.into(), segments, cuts.tolerance)];
+    let mut cells = vec![BspCell::new(rectangle.into(), segments, cuts.tolerance)];
     while let Some(cell) = cells.pop() {
         if let Some(line) = grid_line(&cell, cuts).or_else(|| segment_line(&cell, cuts.tolerance)) {
             cells.extend(cell.split(&line, cuts.tolerance));
@@ -45,7 +45,7 @@ pub fn convex_pieces(rings: &[Ring], cuts: &Cuts<'_>) -> Vec<Convex> {
     pieces
 }
 
-impl Cell {
+impl BspCell {
     /// Keeps of the segments what is inside.
     fn new(polygon: Convex, segments: impl Iterator<Item = Segment>, tolerance: f64) -> Self {
         let borders = borders(&polygon);
@@ -68,7 +68,7 @@ impl Cell {
 
 /// The line of an even grid that divides a cell that is too large, moved onto a parallel segment if
 /// one is near.
-fn grid_line(cell: &Cell, cuts: &Cuts<'_>) -> Option<Line> {
+fn grid_line(cell: &BspCell, cuts: &Cuts<'_>) -> Option<Line> {
     let [low, high] = bounds(&cell.polygon);
     let extent = high - low;
     // Rounding must not decide how squares are cut.
@@ -93,7 +93,7 @@ fn grid_line(cell: &Cell, cuts: &Cuts<'_>) -> Option<Line> {
 }
 
 /// The line along the segment that needs the least extension to cross its cell.
-fn segment_line(cell: &Cell, tolerance: f64) -> Option<Line> {
+fn segment_line(cell: &BspCell, tolerance: f64) -> Option<Line> {
     let reach = |&segment: &Segment| {
         let line = Line::through(segment);
         let [left, _] = line.split(&cell.polygon, tolerance);

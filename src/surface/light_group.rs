@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use super::Surfaces;
+use super::model::{Surface, Surfaces};
 use crate::colour::{LUMENS_PER_WATT, Rgb, luminance};
 use crate::scene::{Light, NamedLight, matches};
 
@@ -133,7 +133,7 @@ impl Surfaces {
             Emitter::Material(number) => {
                 let is_even = self.materials[number].emission_texture.is_none();
                 let surfaces = self.list.iter().filter(|s| s.material as usize == number);
-                is_even.then(|| share * PI * surfaces.map(super::Surface::area).sum::<f64>())
+                is_even.then(|| share * PI * surfaces.map(Surface::area).sum::<f64>())
             }
             Emitter::Light(number) => match &self.lights[number].light {
                 Light::Point { .. } => Some(share * 4.0 * PI),

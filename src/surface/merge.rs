@@ -11,26 +11,26 @@ use super::tint::{Tint, Widest};
 use crate::scene::{Face, Scene};
 
 /// A planar region: the faces it was joined from and its outline.
-pub(super) struct Region {
+pub(super) struct PlanarRegion {
     pub(super) plane: Plane,
     /// Indices into [`Scene::faces`].
     pub(super) faces: Vec<usize>,
     /// Outer ring first, counter-clockwise; holes clockwise.
     pub(super) rings: Vec<Ring>,
-    pub(super) look: Look,
+    pub(super) attributes: Attributes,
     /// Unit normals of the curved surface that it stands for, one a corner of the outer ring; empty if flat.
     pub(super) normals: Vec<DVec3>,
 }
 
 /// How what the corners of faces carry continues over their plane.
 #[derive(Clone, Copy)]
-pub(super) struct Look {
+pub(super) struct Attributes {
     /// From plane coordinates to texture coordinates.
     pub(super) uv: Option<DAffine2>,
     pub(super) tint: Tint,
 }
 
-impl Look {
+impl Attributes {
     fn of(scene: &Scene, plane: &Plane, face: &Face) -> Self {
         let corners = face.corners(&scene.positions);
         let places: Vec<DVec2> = corners.into_iter().map(|p| plane.flatten(p)).collect();
@@ -40,52 +40,97 @@ impl Look {
             tint: Tint::of(face, widest.as_ref(), &places),
         }
     }
+
+    /// True if others say the same at a place of the plane.
+    fn are_like(&self, others: &Self, place: DVec2) -> bool {
+        let same_picture = match (self.uv, others.uv) {
+            (None, None) => true,
+            (Some(a), Some(b)) => {
+                (a.matrix2 - b.matrix2).abs_diff_eq(DMat2::ZERO, 1e-4)
+                    && a.transform_point2(place).distance(b.transform_point2(place)) < 1e-4
+            }
+            _ => false,
+        };
+        same_picture && self.tint.is_like(&others.tint, place)
+    }
+}
+
+/// The face that a region grows from.
+struct Seed<'a> {
+    face: &'a Face,
+    plane: Plane,
+    attributes: Attributes,
+}
+
+impl<'a> Seed<'a> {
+    fn new(scene: &'a Scene, index: usize) -> Self {
+        let face = &scene.faces[index];
+        let plane = plane_of(scene, face);
+        Self { face, plane, attributes: Attributes::of(scene, &plane, face) }
+    }
+
+    /// True if another face may be of its region. Facets of a curved surface stay apart: each has
+    /// its own light.
+    fn continues_in(&self, scene: &Scene, other: &Face, tolerance: f64) -> bool {
+        let corners = other.corners(&scene.positions);
+        self.face.material == other.material
+            && self.face.normals.is_empty()
+            && other.normals.is_empty()
+            && plane_of(scene, other).normal.dot(self.plane.normal) > 0.5
+            && corners.iter().all(|&p| self.plane.height(p).abs() <= tolerance)
+            && self.goes_on_over(scene, other)
+    }
+
+    /// True if what its corners carry goes on over another face.
+    fn goes_on_over(&self, scene: &Scene, other: &Face) -> bool {
+        let theirs = Attributes::of(scene, &self.plane, other);
+        let mut corners = other.corners(&scene.positions).into_iter();
+        corners.all(|p| self.attributes.are_like(&theirs, self.plane.flatten(p)))
+    }
 }
 
 /// The regions of a scene, in the order of their first faces.
-pub(super) fn regions(scene: &Scene, tolerance: f64) -> Vec<Region> {
+pub(super) fn regions(scene: &Scene, tolerance: f64) -> Vec<PlanarRegion> {
     let neighbours = Neighbours::new(scene);
     let mut taken = vec![false; scene.faces.len()];
     let mut regions = Vec::new();
-    for seed in 0..scene.faces.len() {
-        if taken[seed] {
+    for first in 0..scene.faces.len() {
+        if taken[first] {
             continue;
         }
-        let plane = plane_of(scene, &scene.faces[seed]);
-        let look = Look::of(scene, &plane, &scene.faces[seed]);
-        let mut faces = vec![seed];
-        taken[seed] = true;
+        let seed = Seed::new(scene, first);
+        let mut faces = vec![first];
+        taken[first] = true;
         let mut next = 0;
         while next < faces.len() {
             for other in neighbours.of(scene, faces[next]) {
-                let fits = || continues(scene, seed, other, (&plane, &look), tolerance);
-                if !taken[other] && fits() {
+                if !taken[other] && seed.continues_in(scene, &scene.faces[other], tolerance) {
                     taken[other] = true;
                     faces.push(other);
                 }
             }
             next += 1;
         }
-        let mut rings = outline(scene, &plane, &faces);
-        let (mut plane, mut look) = (plane, look);
+        let mut rings = outline(scene, &seed.plane, &faces);
+        let Seed { face, mut plane, mut attributes } = seed;
         if faces.len() > 1 {
             plane = aligned(&plane, &rings);
-            look = Look::of(scene, &plane, &scene.faces[seed]);
+            attributes = Attributes::of(scene, &plane, face);
             rings = outline(scene, &plane, &faces);
         }
-        let normals = normals_of(&scene.faces[seed]);
-        regions.push(Region { plane, faces, rings, look, normals });
+        let normals = normals_of(face);
+        regions.push(PlanarRegion { plane, faces, rings, attributes, normals });
     }
     regions
 }
 
 /// Every face of a scene as a region of its own.
-pub(super) fn single_faces(scene: &Scene) -> Vec<Region> {
+pub(super) fn single_faces(scene: &Scene) -> Vec<PlanarRegion> {
     let region = |(index, face): (usize, &Face)| {
         let plane = plane_of(scene, face);
-        let look = Look::of(scene, &plane, face);
+        let attributes = Attributes::of(scene, &plane, face);
         let rings = outline(scene, &plane, &[index]);
-        Region { plane, faces: vec![index], rings, look, normals: normals_of(face) }
+        PlanarRegion { plane, faces: vec![index], rings, attributes, normals: normals_of(face) }
     };
     scene.faces.iter().enumerate().map(region).collect()
 }
@@ -158,40 +203,6 @@ fn aligned(plane: &Plane, rings: &[Ring]) -> Plane {
     let most = (0..DEGREES).rev().max_by(|&a, &b| lengths[a].total_cmp(&lengths[b])).unwrap_or(0);
     let first = longest(&mut along.filter(|&edge| bin(edge) == most));
     Plane::new(plane.origin, plane.normal, plane.lift(first) - plane.origin)
-}
-
-/// True if `other` may be one region with `seed`. Facets of a curved surface stay apart: each has
-/// its own light.
-fn continues(
-    scene: &Scene,
-    seed: usize,
-    other: usize,
-    (plane, look): (&Plane, &Look),
-    tolerance: f64,
-) -> bool {
-    let (first, face) = (&scene.faces[seed], &scene.faces[other]);
-    let flat = first.normals.is_empty() && face.normals.is_empty();
-    let same_look = || {
-        let other = Look::of(scene, plane, face);
-        face.corners(&scene.positions).into_iter().all(|p| {
-            let p = plane.flatten(p);
-            let apart =
-                |a: DAffine2, b: DAffine2| a.transform_point2(p).distance(b.transform_point2(p));
-            let same_picture = match (look.uv, other.uv) {
-                (None, None) => true,
-                (Some(a), Some(b)) => {
-                    (a.matrix2 - b.matrix2).abs_diff_eq(DMat2::ZERO, 1e-4) && apart(a, b) < 1e-4
-                }
-                _ => false,
-            };
-            same_picture && look.tint.is_like(&other.tint, p)
-        })
-    };
-    first.material == face.material
-        && flat
-        && plane_of(scene, face).normal.dot(plane.normal) > 0.5
-        && face.corners(&scene.positions).into_iter().all(|p| plane.height(p).abs() <= tolerance)
-        && same_look()
 }
 
 /// The affine map from plane to texture coordinates, by the widest corner of the face.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::Surface;
+use super::model::Surface;
 
 /// A surface this many times as large as everything smaller is left aside.
 const OUT_OF_SCALE: f64 = 12.0;

@@ -1,15 +1,14 @@
 //! Surfaces that lie in one place: a picture in the plane of its wall, a lamp in that of its ceiling.
 
-use glam::DVec3;
 use rayon::prelude::*;
 
-use super::TOLERANCE;
 use super::contact::inside;
-use super::merge::Region;
-use super::partly;
-use super::polygon::{Ring, area, centroid, contains, edges};
-use crate::colour::luminance;
-use crate::scene::boxes::{self, Bounds, Tree, are_close};
+use super::coplanar::{Rank, are_level, size};
+use super::merge::PlanarRegion;
+use super::model::TOLERANCE;
+use super::partial_overlap;
+use super::polygon::{Ring, centroid, contains, edges};
+use crate::scene::boxes::{self, Aabb, Tree, are_close};
 use crate::scene::{Scene, note_count};
 
 /// Regions of which none covers another: what lies in the plane of a larger one and faces the same way is cut
@@ -19,9 +18,9 @@ use crate::scene::{Scene, note_count};
 /// Without this, light would fall on both.
 pub(super) fn without_overlaps(
     scene: &Scene,
-    mut regions: Vec<Region>,
+    mut regions: Vec<PlanarRegion>,
     notes: &mut Vec<String>,
-) -> Vec<Region> {
+) -> Vec<PlanarRegion> {
     let tolerance = TOLERANCE * scene.extent();
     let ranks: Vec<Rank> =
         (0..regions.len()).into_par_iter().map(|k| Rank::new(scene, &regions, k)).collect();
@@ -34,7 +33,7 @@ pub(super) fn without_overlaps(
         if is_covered {
             within[large].push(small);
         } else {
-            beside.push((large, small));
+            beside.push([large, small]);
         }
     }
     let mut inner: Vec<usize> = within.iter().flatten().copied().collect();
@@ -49,21 +48,21 @@ pub(super) fn without_overlaps(
         let seen: Vec<Ring> = seen.collect();
         regions[large].rings.extend(seen);
     }
-    let cut = partly::cut(&mut regions, &beside, &ranks, tolerance);
+    let cut = partial_overlap::cut(&mut regions, &beside, &ranks, tolerance);
     note_count(notes, inner.len(), "surface", "cut out of larger ones in whose planes they lie");
     note_count(notes, cut, "surface", "cut where another lies in its plane");
     regions
 }
 
 /// Ordered pairs of regions of which the second lies in the plane of the first, faces the same way and may touch it.
-fn level_pairs(regions: &[Region], tolerance: f64) -> Vec<[usize; 2]> {
+fn level_pairs(regions: &[PlanarRegion], tolerance: f64) -> Vec<[usize; 2]> {
     let tree = Tree::new(regions.par_iter().map(bounds).collect());
     let of = |found: &mut Vec<u32>, outer: usize| {
         let plane = &regions[outer].plane;
-        let meets = |(low, high): Bounds| {
-            let around = (high - low).dot(plane.normal.abs()) / 2.0;
-            are_close(tree.boxes()[outer], (low, high), tolerance)
-                && plane.height(low.midpoint(high)).abs() <= around + 2.0 * tolerance
+        let meets = |other: Aabb| {
+            let around = other.half_extent(plane.normal);
+            are_close(tree.boxes()[outer], other, tolerance)
+                && plane.height(other.middle()).abs() <= around + 2.0 * tolerance
         };
         tree.find(meets, found);
         let others = found.iter().map(|&inner| inner as usize).filter(|&inner| inner != outer);
@@ -73,55 +72,20 @@ fn level_pairs(regions: &[Region], tolerance: f64) -> Vec<[usize; 2]> {
     (0..regions.len()).into_par_iter().map_init(Vec::new, of).flatten_iter().collect()
 }
 
-/// Which of two regions in one place is meant: the greater.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-pub(super) struct Rank {
-    /// What glows is meant.
-    glow: f64,
-    /// Else what is smaller; m², negative.
-    smallness: f64,
-    /// Else what the file has first.
-    place: std::cmp::Reverse<usize>,
-}
-
-impl Rank {
-    fn new(scene: &Scene, regions: &[Region], place: usize) -> Self {
-        let region = &regions[place];
-        let face = &scene.faces[region.faces[0]];
-        let glow = luminance(scene.materials[face.material as usize].emission);
-        // To six digits, so that rounding does not decide.
-        let size = size(region);
-        let unit = 10f64.powf(size.max(f64::MIN_POSITIVE).log10().floor() - 6.0);
-        let smallness = -(size / unit).round() * unit;
-        Self { glow, smallness, place: std::cmp::Reverse(place) }
-    }
-}
-
-fn size(region: &Region) -> f64 {
-    region.rings.iter().map(|ring| area(ring)).sum()
-}
-
-fn bounds(region: &Region) -> Bounds {
+fn bounds(region: &PlanarRegion) -> Aabb {
     boxes::around(region.rings.iter().flatten().map(|&p| region.plane.lift(p)))
 }
 
 /// The rings of the second region as holes in the first.
-fn seen_from(regions: &[Region], [large, small]: [usize; 2]) -> Vec<Ring> {
+fn seen_from(regions: &[PlanarRegion], [large, small]: [usize; 2]) -> Vec<Ring> {
     let (outer, inner) = (&regions[large], &regions[small]);
     let flat = |&p| outer.plane.flatten(inner.plane.lift(p));
     inner.rings.iter().map(|ring| ring.iter().rev().map(flat).collect()).collect()
 }
 
-/// True if two regions lie in one plane and face the same way.
-pub(super) fn are_level(outer: &Region, inner: &Region, tolerance: f64) -> bool {
-    let level = |p: DVec3| outer.plane.height(p).abs() <= tolerance;
-    let mut corners = inner.rings.iter().flatten().map(|&p| inner.plane.lift(p));
-    inner.plane.normal.dot(outer.plane.normal) > 0.999 && corners.all(level)
-}
-
 /// True if the second of two regions in one plane lies in the first and is to be seen in its stead.
 fn is_covered(
-    regions: &[Region],
+    regions: &[PlanarRegion],
     [large, small]: [usize; 2],
     ranks: &[Rank],
     tolerance: f64,
@@ -129,9 +93,7 @@ fn is_covered(
     let (outer, inner) = (&regions[large], &regions[small]);
     let sizes = [size(outer), size(inner)];
     let alike = (sizes[0] - sizes[1]).abs() <= 1e-6 * sizes[0];
-    // Of two in one place, the one that glows is meant, or else the one that the file has first.
-    let order = |k: usize| (ranks[k].glow, ranks[k].place);
-    let is_meant = alike && order(large) >= order(small);
+    let is_meant = alike && ranks[large].of_equals() >= ranks[small].of_equals();
     (alike || sizes[0] > sizes[1])
         && !is_meant
         && is_within(&seen_from(regions, [large, small]), &outer.rings, tolerance)

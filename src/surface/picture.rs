@@ -2,8 +2,9 @@
 
 use glam::{DAffine2, DVec2};
 
-use super::polygon::{Convex, Line, area, bounds, centroid};
-use super::{Surface, Surfaces, Tint};
+use super::model::{Surface, Surfaces};
+use super::polygon::{Convex, Line, area, bounds, centroid, edges};
+use super::tint::Tint;
 use crate::colour::Rgb;
 use crate::scene::Texture;
 
@@ -90,7 +91,7 @@ fn sampled(outline: &Convex, colour: impl Fn(DVec2) -> Rgb) -> Option<Rgb> {
     let [low, high] = bounds(outline);
     let count = MOST_TEXELS as u32;
     let turn = area(outline).signum();
-    let borders: Vec<Line> = super::polygon::edges(outline).map(Line::through).collect();
+    let borders: Vec<Line> = edges(outline).map(Line::through).collect();
     let (mut sum, mut samples) = (Rgb::ZERO, 0.0);
     for row in 0..count {
         for column in 0..count {

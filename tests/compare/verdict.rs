@@ -2,19 +2,22 @@
 
 use proptest::prelude::*;
 use radiosity::compare::{
-    Band, BandVerdict, Contest, Cost, Curve, Family, Needed, Winner, nearest_law,
+    Band, BandVerdict, Contest, Cost, CostCurve, Family, Needed, Winner, nearest_law,
 };
 
 /// Runs whose error is `factor` N^slope.
-fn law(factor: f64, slope: f64, counts: &[f64]) -> Curve {
-    Curve::new(counts.iter().map(|&n| (n, factor * n.powf(slope))))
+fn law(factor: f64, slope: f64, counts: &[f64]) -> CostCurve {
+    CostCurve::new(counts.iter().map(|&n| (n, factor * n.powf(slope))))
 }
 
 const COUNTS: [f64; 4] = [100.0, 400.0, 1600.0, 6400.0];
 
-fn verdict(uniform: Curve, adaptive: Curve, error: Option<f64>) -> BandVerdict {
-    let contest = Contest { curves: [uniform, adaptive], floor: 1e-6 };
-    let contests = [Cost::Elements, Cost::Seconds].map(|cost| (cost, contest.clone()));
+fn verdict(uniform: CostCurve, adaptive: CostCurve, error: Option<f64>) -> BandVerdict {
+    let contests = [Cost::Elements, Cost::Seconds].map(|cost| Contest {
+        cost,
+        curves: [uniform.clone(), adaptive.clone()],
+        floor: 1e-6,
+    });
     BandVerdict::new(Band::All, &contests, error).expect("both have runs")
 }
 
@@ -64,12 +67,9 @@ fn uniform_may_win_and_near_misses_are_ties() {
 #[test]
 fn errors_below_the_floor_are_unresolved() {
     let curve = || law(1.0, -1.0, &COUNTS);
-    let contest = Contest { curves: [curve(), curve()], floor: 0.5 };
-    let found = BandVerdict::new(
-        Band::All,
-        &[(Cost::Elements, contest.clone()), (Cost::Seconds, contest)],
-        None,
-    );
+    let contest = |cost| Contest { cost, curves: [curve(), curve()], floor: 0.5 };
+    let found =
+        BandVerdict::new(Band::All, &[contest(Cost::Elements), contest(Cost::Seconds)], None);
     let [first, second] = found.expect("both have runs").sentences();
     assert!(
         first.contains("does not resolve") && second.contains("unresolved"),
@@ -92,9 +92,9 @@ proptest! {
     #[test]
     fn any_numbers_have_a_verdict(pairs in prop::collection::vec((-1.0..1e6_f64, -1.0..2.0_f64), 0..8)) {
         let (one, other) = pairs.split_at(pairs.len() / 2);
-        let curves = [one, other].map(|pairs| Curve::new(pairs.iter().copied()));
-        let contest = Contest { curves, floor: 0.001 };
-        let contests = [Cost::Elements, Cost::Seconds].map(|cost| (cost, contest.clone()));
+        let curves = [one, other].map(|pairs| CostCurve::new(pairs.iter().copied()));
+        let contests = [Cost::Elements, Cost::Seconds]
+            .map(|cost| Contest { cost, curves: curves.clone(), floor: 0.001 });
         if let Some(found) = BandVerdict::new(Band::All, &contests, None) {
             for sentence in found.sentences() {
                 prop_assert!(!sentence.contains("NaN") && sentence.ends_with('.'), "{sentence}");

@@ -27,8 +27,8 @@ pub(crate) struct SceneOptions {
     ///
     /// With `z`, x,y,z of the file become x,z,-y when it is read: its +Y is -Z then, which is north for --sun. Lamps,
     /// cameras and grids are given in the coordinates after that, with Y up. glTF has Y up by definition.
-    #[arg(long, value_name = "AXIS", value_enum, default_value_t = Axis::Y, help_heading = "Reading")]
-    up: Axis,
+    #[arg(long, value_name = "AXIS", value_enum, default_value_t = UpAxis::Y, help_heading = "Reading")]
+    up: UpAxis,
 
     /// What the file's emission is: radiance in W/(m² sr), or cd/m² (nits), which are divided by 683
     ///
@@ -50,7 +50,7 @@ pub(crate) struct SceneOptions {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Axis {
+enum UpAxis {
     /// As in glTF, and what most exporters make of OBJ
     Y,
     /// As in Blender, and in most programs for buildings
@@ -131,8 +131,8 @@ impl SceneOptions {
             TwoSided::Flip => Sides::Flipped,
         };
         let up = match self.up {
-            Axis::Y => Up::Y,
-            Axis::Z => Up::Z,
+            UpAxis::Y => Up::Y,
+            UpAxis::Z => Up::Z,
         };
         let emission = match self.emission {
             Emission::Radiance => EmissionUnit::Radiance,

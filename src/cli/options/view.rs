@@ -1,14 +1,11 @@
 //! What a picture shows: size, camera, exposure and quantity.
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 use radiosity::reconstruct::TriMesh;
-use radiosity::render::{
-    Display, Picture, RenderOptions, Subject, View, automatic_camera, exposure_seen, render_solved,
-};
+use radiosity::render::{Display, RenderOptions, View, automatic_camera, exposure_seen};
 use radiosity::scene::{Camera, NamedLight};
 use radiosity::tone::{Exposure, exposure_scale};
 use radiosity::{Error, Result};
@@ -74,7 +71,7 @@ pub(crate) struct PictureOptions {
     ///
     /// One for all pictures, or one for each in their order: --view light,error
     #[arg(long, value_enum, value_delimiter = ',')]
-    view: Vec<Shown>,
+    view: Vec<ViewChoice>,
 
     /// Evaluate direct light anew at the samples of the picture, for shadows finer than the mesh
     ///
@@ -84,7 +81,7 @@ pub(crate) struct PictureOptions {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Shown {
+enum ViewChoice {
     /// The light, as the eye would see it
     Light,
     /// The light, with the mesh drawn over it
@@ -105,18 +102,18 @@ enum Shown {
     Error,
 }
 
-impl From<Shown> for View {
-    fn from(shown: Shown) -> Self {
+impl From<ViewChoice> for View {
+    fn from(shown: ViewChoice) -> Self {
         match shown {
-            Shown::Light => Self::Light,
-            Shown::Wireframe => Self::Wireframe,
-            Shown::Radiosity => Self::Radiosity,
-            Shown::Direct => Self::Direct,
-            Shown::Indirect => Self::Indirect,
-            Shown::Illuminance => Self::Illuminance,
-            Shown::Level => Self::Level,
-            Shown::Reason => Self::Reason,
-            Shown::Error => Self::Error,
+            ViewChoice::Light => Self::Light,
+            ViewChoice::Wireframe => Self::Wireframe,
+            ViewChoice::Radiosity => Self::Radiosity,
+            ViewChoice::Direct => Self::Direct,
+            ViewChoice::Indirect => Self::Indirect,
+            ViewChoice::Illuminance => Self::Illuminance,
+            ViewChoice::Level => Self::Level,
+            ViewChoice::Reason => Self::Reason,
+            ViewChoice::Error => Self::Error,
         }
     }
 }
@@ -247,8 +244,11 @@ impl PictureOptions {
                 "a .hdr or .exr has light as it is; only a .png is exposed",
             );
         }
-        let shows_direct = |&view: &Shown| {
-            !matches!(view, Shown::Indirect | Shown::Level | Shown::Reason | Shown::Error)
+        let shows_direct = |&view: &ViewChoice| {
+            !matches!(
+                view,
+                ViewChoice::Indirect | ViewChoice::Level | ViewChoice::Reason | ViewChoice::Error
+            )
         };
         let is_gathered = self.view.is_empty() || self.view.iter().any(shows_direct);
         if self.final_gather && !is_gathered && !matches!(elsewhere, Elsewhere::Picture) {
@@ -267,19 +267,11 @@ impl PictureOptions {
         u64::from(width) * u64::from(height)
     }
 
-    /// One view of a mesh, the skies and suns among some lights behind it.
-    pub(crate) fn picture(
-        &self,
-        view: View,
-        subject: Subject<'_>,
-        (camera, sky): (&Camera, &[NamedLight]),
-        observe: impl FnMut(f64) -> ControlFlow<()>,
-    ) -> Picture {
+    /// How to draw one view, the skies and suns among some lights behind it.
+    pub(crate) fn drawing(&self, view: View, sky: &[NamedLight]) -> RenderOptions {
         let (Size { width, height }, final_gather) = (self.size(), self.final_gather);
         let sky = sky.to_vec();
-        let options =
-            RenderOptions { view, width, height, final_gather, sky, ..RenderOptions::default() };
-        render_solved(subject, camera, &options, observe)
+        RenderOptions { view, width, height, final_gather, sky, ..RenderOptions::default() }
     }
 }
 

@@ -9,8 +9,8 @@ use rayon::prelude::*;
 use crate::colour::{Rgb, luminance};
 use crate::compare::comparison::Comparison;
 use crate::compare::locate::Locator;
+use crate::compare::path_tracer::{PathTracer, Site};
 use crate::compare::run::Lit;
-use crate::compare::sampler::{Sampler, Site};
 use crate::compare::sentences::percent;
 use crate::page::colour_maps;
 use crate::page::{Markup, html};
@@ -156,7 +156,7 @@ fn legend(title: &str, colours: &[u8], marks: [&str; 3]) -> Markup {
 
 /// Light as it should be, anywhere on a mesh: straight from emitters exactly, reflected as in the best solution.
 pub(super) struct Truth<'a> {
-    sampler: Sampler<'a>,
+    tracer: PathTracer<'a>,
     best: Locator<'a>,
     mean: f64,
 }
@@ -167,7 +167,7 @@ impl<'a> Truth<'a> {
         let Comparison { surfaces, runs, .. } = comparison;
         let mean = runs.iter().map(|run| run.score.all.mean).fold(0.0, f64::max);
         Self {
-            sampler: Sampler::new(surfaces),
+            tracer: PathTracer::new(surfaces),
             best: Locator::new(&best.mesh, surfaces.extent),
             mean: mean.max(f64::MIN_POSITIVE),
         }
@@ -198,9 +198,9 @@ impl<'a> Truth<'a> {
         let [a, b, c] = corners.map(|v| mesh.positions[v as usize]);
         let leaf = mesh.leaves[triangle];
         let surface = solution.mesh.surface_of(leaf);
-        let normal = self.sampler.surfaces.list[surface].plane.normal;
+        let normal = self.tracer.surfaces.list[surface].plane.normal;
         let site = Site { surface, place: (a + b + c) / 3.0, normal };
-        let truth = self.sampler.direct(&site).irradiance + self.reflected(&site, mesh, corners);
+        let truth = self.tracer.direct(&site).irradiance + self.reflected(&site, mesh, corners);
         let found = middle(mesh, corners, |light| light.direct + light.indirect);
         let reflectance = solution.optics.of(&solution.mesh[leaf]);
         (luminance(reflectance * (found - truth)), (b - a).cross(c - a).length() / 2.0)

@@ -1,39 +1,20 @@
 //! A comparison as one page: the verdict first, then what it rests on.
 
+mod account;
 mod charts;
 mod errors;
 mod notes;
 mod pictures;
 mod tables;
 
-use serde_json::Value;
-
 use super::comparison::Comparison;
 use super::record::figures;
 use super::run::Lit;
 use crate::page::{self, Markup, Model, Step, Viewer, html};
-use crate::render::Display;
-use crate::scene::Camera;
 
+pub use account::Account;
 use errors::Truth;
 use pictures::{Gallery, Shown};
-
-/// What a report says beyond the comparison itself.
-#[derive(Clone, Copy, Debug)]
-pub struct Account<'a> {
-    /// Above everything: what the scene is called.
-    pub title: &'a str,
-    /// What has been compared, when, on what machine and by which command: names and values.
-    pub identity: &'a [(&'static str, String)],
-    /// What was repaired or assumed when the scene was read.
-    pub notes: &'a [String],
-    /// Where the figures come from, for those who read the page by program.
-    pub about: &'a Value,
-    /// From where pictures are taken.
-    pub camera: &'a Camera,
-    /// How they are shown.
-    pub display: Display,
-}
 
 /// A page that sets uniform and adaptive meshes side by side: verdict, pictures, the profile across a
 /// shadow's edge, errors, convergence, all runs, statistics of the meshes, both of them in 3D, and

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::Account;
+use super::account::Account;
 use super::errors::{ErrorMap, ErrorScale};
 use crate::compare::comparison::Comparison;
 use crate::compare::run::{Lit, Run};
@@ -42,21 +42,21 @@ impl<'a> Shown<'a> {
         format!("{}, {} elements", run.family.name(), run.elements)
     }
 
-    fn picture(&self, comparison: &Comparison, which: usize, look: &Look<'_>) -> Picture {
+    fn picture(&self, comparison: &Comparison, which: usize, setup: &PictureSetup<'_>) -> Picture {
         let (lit, settings) = (self.lit[which], &self.runs[which].settings);
         let solved = Solved { surfaces: &comparison.surfaces, settings, solution: &lit.solution };
         let subject = Subject { mesh: &lit.mesh, solved: Some(solved) };
         let sky = comparison.surfaces.lights.clone();
-        let options = RenderOptions { sky, ..look.options() };
-        render_solved(subject, look.camera, &options, |_| ControlFlow::Continue(()))
+        let options = RenderOptions { sky, ..setup.options() };
+        render_solved(subject, setup.camera, &options, |_| ControlFlow::Continue(()))
     }
 
     /// Uniform, adaptive, reference.
-    fn all(&self, comparison: &Comparison, look: &Look<'_>) -> [Picture; 3] {
-        let exact = Look { final_gather: true, ..*look };
+    fn all(&self, comparison: &Comparison, setup: &PictureSetup<'_>) -> [Picture; 3] {
+        let exact = PictureSetup { final_gather: true, ..*setup };
         [
-            self.picture(comparison, 0, look),
-            self.picture(comparison, 1, look),
+            self.picture(comparison, 0, setup),
+            self.picture(comparison, 1, setup),
             self.picture(comparison, 1, &exact),
         ]
     }
@@ -64,14 +64,14 @@ impl<'a> Shown<'a> {
 
 /// From where, how large, and how exactly.
 #[derive(Clone, Copy)]
-struct Look<'a> {
+struct PictureSetup<'a> {
     camera: &'a Camera,
     view: View,
     size: [u32; 2],
     final_gather: bool,
 }
 
-impl Look<'_> {
+impl PictureSetup<'_> {
     fn options(&self) -> RenderOptions {
         let ([width, height], view, final_gather) = (self.size, self.view, self.final_gather);
         RenderOptions { view, width, height, final_gather, ..RenderOptions::default() }
@@ -92,11 +92,11 @@ pub(super) struct Gallery {
 impl Gallery {
     pub(super) fn new(comparison: &Comparison, shown: &Shown<'_>, account: &Account<'_>) -> Self {
         let view = View::Light;
-        let look = Look { camera: account.camera, view, size: SIZE, final_gather: false };
-        let [uniform, adaptive, reference] = shown.all(comparison, &look);
+        let setup = PictureSetup { camera: account.camera, view, size: SIZE, final_gather: false };
+        let [uniform, adaptive, reference] = shown.all(comparison, &setup);
         let mean = shown.runs[1].score.all.mean;
         let errors = [&uniform, &adaptive].map(|p| ErrorMap::new(p, &reference, mean));
-        let wires = Look { view: View::Wireframe, ..look };
+        let wires = PictureSetup { view: View::Wireframe, ..setup };
         let meshes = [0, 1].map(|which| {
             // So that it lies over the picture.
             let picture = shown.picture(comparison, which, &wires).without_legend();
@@ -135,8 +135,9 @@ impl Gallery {
         let rows = places.iter().map(|&place| {
             let camera = close_up(account.camera, SIZE, place, f64::from(ZOOM));
             let view = View::Light;
-            let look = Look { camera: &camera, view, size: CLOSE_SIZE, final_gather: false };
-            let pictures = shown.all(comparison, &look);
+            let setup =
+                PictureSetup { camera: &camera, view, size: CLOSE_SIZE, final_gather: false };
+            let pictures = shown.all(comparison, &setup);
             let figure = |k: usize| {
                 let alt = format!("Close-up of a shadow's edge: {}", self.names[k]);
                 page::picture(&png(&pictures[k], &account.display), &alt, &self.names[k])

@@ -5,19 +5,19 @@ use gltf_json::buffer::View;
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root};
 
-/// What is wrong with an array, in words.
-type Outcome<T> = Result<T, String>;
+/// What was read of a GLB, or what is wrong with it, in words.
+pub(super) type ReadResult<T> = Result<T, String>;
 
 /// The JSON of a GLB and the bytes it points into.
 #[derive(Debug)]
-pub(super) struct Arrays<'a> {
+pub(super) struct GlbArrays<'a> {
     pub(super) root: &'a Root,
     pub(super) binary: &'a [u8],
 }
 
-impl<'a> Arrays<'a> {
+impl<'a> GlbArrays<'a> {
     /// The bytes of a view.
-    pub(super) fn view(&self, index: Index<View>) -> Outcome<&'a [u8]> {
+    pub(super) fn view(&self, index: Index<View>) -> ReadResult<&'a [u8]> {
         let missing = || format!("buffer view {index} reaches beyond the file");
         let view = self.root.buffer_views.get(index.value()).ok_or_else(missing)?;
         let start = view.byte_offset.map_or(0, |offset| offset.0);
@@ -27,7 +27,10 @@ impl<'a> Arrays<'a> {
     }
 
     /// Vectors of two or three finite single-precision numbers.
-    pub(super) fn vectors<const N: usize>(&self, index: Index<Accessor>) -> Outcome<Vec<[f32; N]>> {
+    pub(super) fn vectors<const N: usize>(
+        &self,
+        index: Index<Accessor>,
+    ) -> ReadResult<Vec<[f32; N]>> {
         let shape = if N == 2 { Type::Vec2 } else { Type::Vec3 };
         let bytes = self.packed(index, ComponentType::F32, shape)?;
         let numbers = bytes.as_chunks::<4>().0.iter().map(|&bytes| f32::from_le_bytes(bytes));
@@ -43,7 +46,7 @@ impl<'a> Arrays<'a> {
         &self,
         index: Index<Accessor>,
         vertices: usize,
-    ) -> Outcome<Vec<[u32; 3]>> {
+    ) -> ReadResult<Vec<[u32; 3]>> {
         let component =
             self.root.accessors.get(index.value()).map(|accessor| accessor.component_type);
         let corners: Vec<u32> = match component {
@@ -70,7 +73,7 @@ impl<'a> Arrays<'a> {
         index: Index<Accessor>,
         component: ComponentType,
         shape: Type,
-    ) -> Outcome<&'a [u8]> {
+    ) -> ReadResult<&'a [u8]> {
         let wrong = |what: &str| format!("accessor {index} {what}");
         let accessor =
             self.root.accessors.get(index.value()).ok_or_else(|| wrong("does not exist"))?;

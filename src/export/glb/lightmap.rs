@@ -17,29 +17,27 @@ use serde_json::json;
 
 use super::document::Document;
 use super::materials::{Materials, alpha_cutoff, alpha_mode, first_uv};
-use super::record::Record;
-use super::tree::Tree;
-use crate::export::look::{Look, singles};
+use super::record::GlbRecord;
+use super::tree::NodeTree;
+use crate::export::exposed::{ExposedMesh, singles};
 use crate::lightmap::{CoarsePart, Lightmap};
 
 /// Writes the mesh of a lightmap as GLB; `maps` are the names of the linear and of the exposed picture.
 pub(crate) fn write(
     map: &Lightmap,
-    look: &Look,
+    exposed: &ExposedMesh,
     maps: &[String; 2],
     out: &mut impl Write,
 ) -> io::Result<()> {
-    let mut document = Document::default();
-    let mut materials = Materials::new(map.surfaces.textures.iter().map(|picture| (picture, 1.0)));
-    let mut primitives = Vec::new();
-    for part in &map.atlas.mesh.parts {
-        let material = material(&mut document, &mut materials, (map, part))?;
-        primitives.push(primitive(&mut document, (map, part, look.origin), material));
-    }
+    let mut coarse = CoarseGlb::new(map, exposed.origin);
+    let parts = map.atlas.mesh.parts.iter();
+    let primitives = parts.map(|part| coarse.primitive(part)).collect::<io::Result<_>>()?;
+    let mut document = coarse.document;
     let (objects, nodes, cameras) = (&[][..], &[][..], &map.surfaces.cameras);
-    let tree = Tree { objects, nodes, cameras, origin: look.origin, extent: map.surfaces.extent };
+    let tree =
+        NodeTree { objects, nodes, cameras, origin: exposed.origin, extent: map.surfaces.extent };
     tree.add(&mut document.root, BTreeMap::from([(None, primitives)]));
-    let mut record = serde_json::to_value(Record::new(look))?;
+    let mut record = serde_json::to_value(GlbRecord::new(exposed))?;
     if let Some(fields) = record.as_object_mut() {
         fields.remove("unit");
         fields.insert("lightmap".to_owned(), about(map, maps));
@@ -67,80 +65,93 @@ fn about(map: &Lightmap, [linear, exposed]: &[String; 2]) -> serde_json::Value {
     })
 }
 
-/// The surfaces' own colour and emission.
-fn material(
-    document: &mut Document,
-    materials: &mut Materials,
-    (map, part): (&Lightmap, &CoarsePart),
-) -> io::Result<Index<Material>> {
-    let own = &map.surfaces.materials[part.material as usize];
-    let mut texture = |number: Option<u32>| {
-        let stored = number.map(|n| materials.texture(document, n));
-        stored.transpose().map(|index| index.map(first_uv))
-    };
-    let (base_color_texture, emissive_texture) =
-        (texture(own.texture)?, texture(own.emission_texture)?);
-    let [r, g, b] = singles(own.reflectance);
-    let strength = own.emission.max_element().max(1.0);
-    let beyond_one = EmissiveStrength {
-        emissive_strength: EmissiveStrengthFactor(strength.min(f64::from(f32::MAX)) as f32),
-    };
-    Ok(document.root.push(Material {
-        name: Some(own.name.clone()),
-        pbr_metallic_roughness: PbrMetallicRoughness {
-            base_color_factor: PbrBaseColorFactor([r, g, b, 1.0]),
-            base_color_texture,
-            metallic_factor: StrengthFactor(0.0),
-            ..PbrMetallicRoughness::default()
-        },
-        alpha_mode: alpha_mode(own.cutoff),
-        alpha_cutoff: alpha_cutoff(own.cutoff),
-        emissive_factor: EmissiveFactor(singles(own.emission / strength)),
-        emissive_texture: emissive_texture.filter(|_| own.emission.max_element() > 0.0),
-        extensions: (strength > 1.0).then(|| MaterialExtensions {
-            emissive_strength: Some(beyond_one),
-            ..MaterialExtensions::default()
-        }),
-        ..Material::default()
-    }))
+/// The file under construction.
+struct CoarseGlb<'a> {
+    map: &'a Lightmap<'a>,
+    /// Where the file's coordinates begin, m.
+    origin: DVec3,
+    document: Document,
+    materials: Materials<'a>,
 }
 
-fn primitive(
-    document: &mut Document,
-    (map, part, origin): (&Lightmap, &CoarsePart, DVec3),
-    material: Index<Material>,
-) -> Primitive {
-    let mesh = &map.atlas.mesh;
-    let triangles = &mesh.triangles[part.triangles.clone()];
-    // A part's vertices are its own, one after another.
-    let corners = || triangles.as_flattened().iter().copied();
-    let first = corners().min().unwrap_or_default();
-    let range = first as usize..corners().max().map_or(0, |last| last as usize + 1);
-    let indices: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(|corner| corner - first)).collect();
-
-    let positions: Vec<_> =
-        mesh.positions[range.clone()].iter().map(|&p| singles(p - origin)).collect();
-    let normals: Vec<_> = mesh.normals[range.clone()].iter().map(|n| n.to_array()).collect();
-    let uvs: Vec<_> = mesh.uvs[range.clone()].iter().map(|uv| uv.to_array()).collect();
-    let light_uvs: Vec<_> = mesh.light_uvs[range.clone()].iter().map(|uv| uv.to_array()).collect();
-    // The first coordinates are there without a picture, too: a second set alone is against the format's rules.
-    let mut attributes = BTreeMap::from([
-        (Semantic::Positions, document.positions(&positions)),
-        (Semantic::Normals, document.vectors(&normals)),
-        (Semantic::TexCoords(0), document.vectors(&uvs)),
-        (Semantic::TexCoords(1), document.vectors(&light_uvs)),
-    ]);
-    let tints: Vec<_> = mesh.tints[range.clone()].iter().map(|tint| tint.to_array()).collect();
-    if tints.iter().any(|tint| *tint != [1.0; 3]) {
-        attributes.insert(Semantic::Colors(0), document.vectors(&tints));
+impl<'a> CoarseGlb<'a> {
+    fn new(map: &'a Lightmap<'_>, origin: DVec3) -> Self {
+        let pictures = map.surfaces.textures.iter().map(|picture| (picture, 1.0));
+        Self { map, origin, document: Document::default(), materials: Materials::new(pictures) }
     }
-    Primitive {
-        attributes: attributes.into_iter().map(|(key, to)| (Checked::Valid(key), to)).collect(),
-        indices: Some(document.indices(&indices, range.len())),
-        material: Some(material),
-        mode: Checked::Valid(Mode::Triangles),
-        targets: None,
-        extensions: None,
-        extras: None,
+
+    /// The surfaces' own colour and emission.
+    fn material(&mut self, part: &CoarsePart) -> io::Result<Index<Material>> {
+        let own = &self.map.surfaces.materials[part.material as usize];
+        let mut texture = |number: Option<u32>| {
+            let stored = number.map(|n| self.materials.texture(&mut self.document, n));
+            stored.transpose().map(|index| index.map(first_uv))
+        };
+        let (base_color_texture, emissive_texture) =
+            (texture(own.texture)?, texture(own.emission_texture)?);
+        let [r, g, b] = singles(own.reflectance);
+        let strength = own.emission.max_element().max(1.0);
+        let beyond_one = EmissiveStrength {
+            emissive_strength: EmissiveStrengthFactor(strength.min(f64::from(f32::MAX)) as f32),
+        };
+        Ok(self.document.root.push(Material {
+            name: Some(own.name.clone()),
+            pbr_metallic_roughness: PbrMetallicRoughness {
+                base_color_factor: PbrBaseColorFactor([r, g, b, 1.0]),
+                base_color_texture,
+                metallic_factor: StrengthFactor(0.0),
+                ..PbrMetallicRoughness::default()
+            },
+            alpha_mode: alpha_mode(own.cutoff),
+            alpha_cutoff: alpha_cutoff(own.cutoff),
+            emissive_factor: EmissiveFactor(singles(own.emission / strength)),
+            emissive_texture: emissive_texture.filter(|_| own.emission.max_element() > 0.0),
+            extensions: (strength > 1.0).then(|| MaterialExtensions {
+                emissive_strength: Some(beyond_one),
+                ..MaterialExtensions::default()
+            }),
+            ..Material::default()
+        }))
+    }
+
+    /// The triangles of a part, with its material.
+    fn primitive(&mut self, part: &CoarsePart) -> io::Result<Primitive> {
+        let material = self.material(part)?;
+        let Self { document, origin, .. } = self;
+        let mesh = &self.map.atlas.mesh;
+        let triangles = &mesh.triangles[part.triangles.clone()];
+        // A part's vertices are its own, one after another.
+        let corners = || triangles.as_flattened().iter().copied();
+        let first = corners().min().unwrap_or_default();
+        let range = first as usize..corners().max().map_or(0, |last| last as usize + 1);
+        let indices: Vec<[u32; 3]> =
+            triangles.iter().map(|t| t.map(|corner| corner - first)).collect();
+
+        let positions: Vec<_> =
+            mesh.positions[range.clone()].iter().map(|&p| singles(p - *origin)).collect();
+        let normals: Vec<_> = mesh.normals[range.clone()].iter().map(|n| n.to_array()).collect();
+        let uvs: Vec<_> = mesh.uvs[range.clone()].iter().map(|uv| uv.to_array()).collect();
+        let light_uvs: Vec<_> =
+            mesh.light_uvs[range.clone()].iter().map(|uv| uv.to_array()).collect();
+        // The first coordinates are there without a picture, too: a second set alone is against the format's rules.
+        let mut attributes = BTreeMap::from([
+            (Semantic::Positions, document.positions(&positions)),
+            (Semantic::Normals, document.vectors(&normals)),
+            (Semantic::TexCoords(0), document.vectors(&uvs)),
+            (Semantic::TexCoords(1), document.vectors(&light_uvs)),
+        ]);
+        let tints: Vec<_> = mesh.tints[range.clone()].iter().map(|tint| tint.to_array()).collect();
+        if tints.iter().any(|tint| *tint != [1.0; 3]) {
+            attributes.insert(Semantic::Colors(0), document.vectors(&tints));
+        }
+        Ok(Primitive {
+            attributes: attributes.into_iter().map(|(key, to)| (Checked::Valid(key), to)).collect(),
+            indices: Some(document.indices(&indices, range.len())),
+            material: Some(material),
+            mode: Checked::Valid(Mode::Triangles),
+            targets: None,
+            extensions: None,
+            extras: None,
+        })
     }
 }

@@ -37,7 +37,7 @@ impl<'a> Materials<'a> {
         document: &mut Document,
         group: &Group,
     ) -> io::Result<Index<Material>> {
-        let (name, texture, cutoff) = group.look();
+        let (name, texture, cutoff) = group.key();
         let key = (name.to_owned(), texture, cutoff);
         if let Some(&known) = self.known.get(&key) {
             return Ok(known);

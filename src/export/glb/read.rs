@@ -9,13 +9,13 @@ use gltf_json::material::AlphaMode;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
 
-use super::accessors::Arrays;
+use super::accessors::{GlbArrays, ReadResult};
 use super::hung::Hung;
-use super::record::{Brightened, Record};
-use super::{LIGHT, RADIOSITY, TEXTURE_MEAN};
+use super::record::{Brightened, GlbRecord};
+use super::semantics::{LIGHT, RADIOSITY, TEXTURE_MEAN};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
-use crate::export::Stamp;
+use crate::export::stamp::Stamp;
 use crate::reconstruct::{LightShare, Part, TriMesh};
 use crate::scene::{Texture, decode, sampler_of};
 use crate::surface::LightGroup;
@@ -23,8 +23,6 @@ use crate::surface::LightGroup;
 const NO_RADIOSITY: &str = "carries no radiosity (attribute _RADIOSITY); `radiosity solve SCENE -o FILE.glb` makes such a file";
 
 const REARRANGED: &str = "was rearranged by another program; write it anew with radiosity";
-
-type Outcome<T> = std::result::Result<T, String>;
 
 /// Reads a mesh and its stamp from a GLB that [`save`](crate::export::save) wrote.
 ///
@@ -35,12 +33,12 @@ pub fn load_solved(path: &Path) -> Result<(TriMesh, Stamp)> {
     read(&bytes).map_err(|message| Error::format(path, message))
 }
 
-fn read(bytes: &[u8]) -> Outcome<(TriMesh, Stamp)> {
+fn read(bytes: &[u8]) -> ReadResult<(TriMesh, Stamp)> {
     let (json, binary) = chunks(bytes)?;
     let root = Root::from_slice(json).map_err(|error| format!("no valid glTF: {error}"))?;
-    let arrays = Arrays { root: &root, binary };
+    let arrays = GlbArrays { root: &root, binary };
     let extras = root.asset.extras.as_ref();
-    let record = extras.and_then(|extras| serde_json::from_str::<Record>(extras.get()).ok());
+    let record = extras.and_then(|extras| serde_json::from_str::<GlbRecord>(extras.get()).ok());
     let lights = record.iter().flat_map(|record| &record.lights);
     let share = |group: &LightGroup| LightShare { group: group.clone(), radiosity: Vec::new() };
     let mut mesh = TriMesh { lights: lights.map(share).collect(), ..TriMesh::default() };
@@ -49,7 +47,7 @@ fn read(bytes: &[u8]) -> Outcome<(TriMesh, Stamp)> {
         let offset = hung.offset(number).ok_or(REARRANGED)?;
         let (object, first) = (hung.object(&mut mesh, number), mesh.positions.len());
         for primitive in primitives {
-            append(&mut mesh, &arrays, (primitive, object))?;
+            append(&mut mesh, &arrays, primitive, object)?;
         }
         mesh.positions[first..].iter_mut().for_each(|position| *position += offset);
         objects.push(object);
@@ -59,11 +57,11 @@ fn read(bytes: &[u8]) -> Outcome<(TriMesh, Stamp)> {
     if mesh.triangles.is_empty() {
         return Err("holds no triangles".to_owned());
     }
-    Ok((mesh, record.map(Record::into_stamp).unwrap_or_default()))
+    Ok((mesh, record.map(GlbRecord::into_stamp).unwrap_or_default()))
 }
 
 /// The JSON and the binary chunk.
-fn chunks(bytes: &[u8]) -> Outcome<(&[u8], &[u8])> {
+fn chunks(bytes: &[u8]) -> ReadResult<(&[u8], &[u8])> {
     // The reader below subtracts the header from the length that the file states.
     let stated = bytes.get(8..12).and_then(|field| field.try_into().ok()).map(u32::from_le_bytes);
     if stated.is_none_or(|length| length < 12) {
@@ -81,9 +79,10 @@ fn chunks(bytes: &[u8]) -> Outcome<(&[u8], &[u8])> {
 /// Adds one primitive of an object as one part.
 fn append(
     mesh: &mut TriMesh,
-    arrays: &Arrays,
-    (primitive, object): (&Primitive, Option<u32>),
-) -> Outcome<()> {
+    arrays: &GlbArrays,
+    primitive: &Primitive,
+    object: Option<u32>,
+) -> ReadResult<()> {
     if primitive.mode != Checked::Valid(Mode::Triangles) {
         return Err("holds points or lines, which radiosity does not write".to_owned());
     }
@@ -97,18 +96,22 @@ fn append(
     let triangles = arrays.triangles(indices, count)?;
     let start = mesh.triangles.len();
     mesh.triangles.extend(triangles.iter().map(|corners| corners.map(|corner| offset + corner)));
-    let look = material(arrays, primitive)?;
-    mesh.parts.push(Part { triangles: start..mesh.triangles.len(), object, ..look });
+    let like = material(arrays, primitive)?;
+    mesh.parts.push(Part { triangles: start..mesh.triangles.len(), object, ..like });
     Ok(())
 }
 
-fn append_vertices(mesh: &mut TriMesh, arrays: &Arrays, primitive: &Primitive) -> Outcome<()> {
+fn append_vertices(
+    mesh: &mut TriMesh,
+    arrays: &GlbArrays,
+    primitive: &Primitive,
+) -> ReadResult<()> {
     let find = |semantic: Semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
     let extra = |name: &str| find(Semantic::Extras(name.to_owned()));
-    let vectors = |index| -> Outcome<Vec<Vec3>> {
+    let vectors = |index| -> ReadResult<Vec<Vec3>> {
         Ok(arrays.vectors::<3>(index)?.into_iter().map(Vec3::from).collect())
     };
-    let doubles = |index| -> Outcome<Vec<DVec3>> {
+    let doubles = |index| -> ReadResult<Vec<DVec3>> {
         Ok(vectors(index)?.into_iter().map(Vec3::as_dvec3).collect())
     };
     let radiosity = extra(RADIOSITY).ok_or(NO_RADIOSITY)?;
@@ -144,7 +147,7 @@ fn append_vertices(mesh: &mut TriMesh, arrays: &Arrays, primitive: &Primitive) -
 }
 
 /// A part without triangles that has the name of a primitive's material, its texture and its holes.
-fn material(arrays: &Arrays, primitive: &Primitive) -> Outcome<Part> {
+fn material(arrays: &GlbArrays, primitive: &Primitive) -> ReadResult<Part> {
     let Some(index) = primitive.material else {
         return Ok(Part::default());
     };
@@ -165,11 +168,11 @@ fn material(arrays: &Arrays, primitive: &Primitive) -> Outcome<Part> {
     })
 }
 
-fn textures(arrays: &Arrays) -> Outcome<Vec<Texture>> {
+fn textures(arrays: &GlbArrays) -> ReadResult<Vec<Texture>> {
     arrays.root.textures.iter().map(|texture| read_texture(arrays, texture)).collect()
 }
 
-fn read_texture(arrays: &Arrays, texture: &gltf_json::Texture) -> Outcome<Texture> {
+fn read_texture(arrays: &GlbArrays, texture: &gltf_json::Texture) -> ReadResult<Texture> {
     let root = arrays.root;
     let image = root.images.get(texture.source.value()).ok_or("a texture has no image")?;
     let view = image.buffer_view.ok_or("an image is outside of the file")?;

@@ -3,14 +3,14 @@
 use gltf_json::extras::RawValue;
 use serde::{Deserialize, Serialize};
 
-use crate::export::Stamp;
-use crate::export::look::{Look, TONE_CURVE};
+use crate::export::exposed::{ExposedMesh, TONE_CURVE};
+use crate::export::stamp::Stamp;
 use crate::surface::LightGroup;
 use crate::tone::{Exposure, exposure_value};
 
 /// The contents of `asset.extras`.
 #[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Record {
+pub(super) struct GlbRecord {
     version: String,
     /// Of `_RADIOSITY`.
     unit: String,
@@ -32,21 +32,21 @@ struct ExposureRecord {
     scale: f64,
 }
 
-impl Record {
-    pub(super) fn new(look: &Look) -> Self {
-        let (automatic, ev) = match look.stamp.exposure {
-            Exposure::Automatic => (true, exposure_value(look.scale)),
+impl GlbRecord {
+    pub(super) fn new(exposed: &ExposedMesh) -> Self {
+        let (automatic, ev) = match exposed.stamp.exposure {
+            Exposure::Automatic => (true, exposure_value(exposed.scale)),
             Exposure::Found(ev) => (true, ev),
             Exposure::Ev(ev) => (false, ev),
         };
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             unit: "W/m^2".to_owned(),
-            exposure: ExposureRecord { automatic, ev, scale: look.scale },
+            exposure: ExposureRecord { automatic, ev, scale: exposed.scale },
             tone_curve: TONE_CURVE.to_owned(),
-            settings: look.stamp.settings.clone(),
-            finished: look.stamp.finished,
-            lights: look.mesh.lights.iter().map(|light| light.group.clone()).collect(),
+            settings: exposed.stamp.settings.clone(),
+            finished: exposed.stamp.finished,
+            lights: exposed.mesh.lights.iter().map(|light| light.group.clone()).collect(),
         }
     }
 

@@ -12,7 +12,7 @@ use gltf_json::scene::{Scene, UnitQuaternion};
 use gltf_json::validation::Checked;
 use gltf_json::{Index, Mesh, Node, Root};
 
-use crate::export::look::singles;
+use crate::export::exposed::singles;
 use crate::scene::{self, Camera};
 
 /// Name of what has none of its own: the file's scene, the mesh of no object, and the node above all others.
@@ -23,7 +23,7 @@ const NEAR: f64 = 1e-3;
 
 /// What is to be hung up, and where.
 #[derive(Debug)]
-pub(super) struct Tree<'a> {
+pub(super) struct NodeTree<'a> {
     /// Names of the objects.
     pub(super) objects: &'a [String],
     pub(super) nodes: &'a [scene::Node],
@@ -34,7 +34,7 @@ pub(super) struct Tree<'a> {
     pub(super) extent: f64,
 }
 
-impl Tree<'_> {
+impl NodeTree<'_> {
     /// Adds the scene with its meshes, which come by object.
     pub(super) fn add(&self, root: &mut Root, meshes: BTreeMap<Option<u32>, Vec<Primitive>>) {
         let mut meshes: BTreeMap<Option<u32>, Index<Mesh>> = meshes

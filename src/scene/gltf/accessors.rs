@@ -4,7 +4,7 @@ use ::gltf::json::accessor::{Accessor, ComponentType, Type, sparse::Sparse};
 use ::gltf::json::validation::{Checked, USize64};
 use ::gltf::json::{Index, buffer};
 
-use super::file::File;
+use super::file::GltfFile;
 use crate::error::Result;
 
 /// Most elements of an accessor without data of its own, all zero but for sparse values.
@@ -65,14 +65,14 @@ type Claim<T> = std::result::Result<T, String>;
 
 /// Equally spaced elements whose place inside `bytes` has been checked.
 #[derive(Clone, Copy, Debug)]
-struct Layout<'a> {
+struct AccessorLayout<'a> {
     bytes: &'a [u8],
     stride: usize,
     component: ComponentType,
     normalized: bool,
 }
 
-impl Layout<'_> {
+impl AccessorLayout<'_> {
     /// Component `part` of element `element`; normalized integers become -1..=1 or 0..=1.
     fn number(&self, element: usize, part: usize) -> f64 {
         let b = &self.bytes[element * self.stride + part * self.component.size()..];
@@ -105,7 +105,24 @@ struct Shape {
     count: usize,
 }
 
-impl File {
+impl GltfFile {
+    /// An attribute's values, one a vertex, or nothing where the primitive has no such attribute.
+    pub(super) fn attribute<const N: usize>(
+        &self,
+        index: Option<Index<Accessor>>,
+        purpose: Purpose,
+        expected: usize,
+    ) -> Result<Vec<[f64; N]>> {
+        let Some(index) = index else { return Ok(Vec::new()) };
+        let values = self.floats(index, purpose)?;
+        if values.len() != expected {
+            let count = values.len();
+            let message = format!("accessor {index} has {count} elements for {expected} vertices");
+            return Err(self.fail(message));
+        }
+        Ok(values)
+    }
+
     /// The first `N` components of every element, finite numbers all.
     pub(super) fn floats<const N: usize>(
         &self,
@@ -149,7 +166,7 @@ impl File {
         accessor: &Accessor,
         shape: Shape,
     ) -> std::result::Result<Vec<[f64; N]>, String> {
-        let element = |layout: &Layout<'_>, index: usize| {
+        let element = |layout: &AccessorLayout<'_>, index: usize| {
             std::array::from_fn(|part| layout.number(index, part))
         };
         let mut values: Vec<[f64; N]> = match accessor.buffer_view {
@@ -175,7 +192,11 @@ impl File {
     }
 
     /// Layouts of a sparse accessor's indices and values, and how many there are.
-    fn sparse(&self, sparse: &Sparse, shape: Shape) -> Claim<(Layout<'_>, Layout<'_>, usize)> {
+    fn sparse(
+        &self,
+        sparse: &Sparse,
+        shape: Shape,
+    ) -> Claim<(AccessorLayout<'_>, AccessorLayout<'_>, usize)> {
         let Checked::Valid(component) = sparse.indices.component_type else {
             return Err("unknown component type of sparse indices".to_owned());
         };
@@ -192,7 +213,7 @@ impl File {
         view: Index<buffer::View>,
         offset: USize64,
         shape: Shape,
-    ) -> Claim<Layout<'_>> {
+    ) -> Claim<AccessorLayout<'_>> {
         let (bytes, stride) = self.view(view).map_err(|error| error.to_string())?;
         let size = shape.component.size() * shape.parts;
         let stride = stride.unwrap_or(size);
@@ -208,7 +229,12 @@ impl File {
             .zip(length)
             .and_then(|(start, length)| bytes.get(start..start.checked_add(length)?));
         let bytes = bytes.ok_or_else(|| format!("reaches beyond buffer view {view}"))?;
-        Ok(Layout { bytes, stride, component: shape.component, normalized: shape.normalized })
+        Ok(AccessorLayout {
+            bytes,
+            stride,
+            component: shape.component,
+            normalized: shape.normalized,
+        })
     }
 }
 

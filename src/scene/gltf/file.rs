@@ -11,34 +11,22 @@ use ::gltf::{Glb, json};
 use data_url::DataUrl;
 use percent_encoding::percent_decode_str;
 
-use super::packed::{DRACO, MESHOPT};
+use super::extensions::is_readable;
 use crate::error::{Error, Result};
 use crate::scene::named::find;
-
-/// Required extensions that are read, or whose absence leaves diffuse light as it is.
-const READABLE: [&str; 8] = [
-    DRACO,
-    MESHOPT,
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_unlit",
-    "KHR_texture_transform",
-    "KHR_mesh_quantization",
-];
 
 /// The parsed JSON and the bytes it refers to.
 ///
 /// The crate's own document is left aside: its accessors unwrap what its validation lets pass.
 #[derive(Debug)]
-pub(super) struct File {
+pub(super) struct GltfFile {
     pub(super) path: PathBuf,
     pub(super) root: Root,
     /// `None` for buffers without data, which only compression extensions may fill.
     buffers: Vec<Option<Vec<u8>>>,
 }
 
-impl File {
+impl GltfFile {
     /// Reads the file and all buffers; which files were taken instead of others is noted.
     pub(super) fn open(path: &Path, notes: &mut Vec<String>) -> Result<Self> {
         let bytes = fs::read(path).map_err(Error::io(path))?;
@@ -49,7 +37,6 @@ impl File {
             let data = file.buffer(index, &mut blob, notes)?;
             file.buffers.push(data);
         }
-        file.unpack()?;
         Ok(file)
     }
 
@@ -174,11 +161,6 @@ impl File {
             None => Ok(()),
         }
     }
-}
-
-/// Whether an extension is read, or says nothing about diffuse light.
-pub(super) fn is_readable(name: &str) -> bool {
-    READABLE.contains(&name) || name.starts_with("KHR_materials_")
 }
 
 /// What the file says its version is, if that is not one that is read.

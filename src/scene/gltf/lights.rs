@@ -8,14 +8,14 @@ use ::gltf::json::scene::Node;
 use ::gltf::json::validation::Checked;
 use glam::{DMat4, DVec3, Vec3};
 
-use super::Import;
+use super::import::GltfImport;
 use crate::colour::LUMENS_PER_WATT;
 use crate::error::Result;
-use crate::scene::load::{MAX_RADIANCE, tamed};
+use crate::scene::limits::{MAX_RADIANCE, tamed};
 use crate::scene::notes::listed;
 use crate::scene::{Camera, EmissionUnit, Light, NamedLight};
 
-impl Import<'_> {
+impl GltfImport<'_> {
     /// Adds a perspective camera that looks along its node's -Z.
     pub(super) fn add_camera(&mut self, camera: &json::Camera, node: &Node, transform: DMat4) {
         let target = direction(transform, DVec3::NEG_Z);

@@ -8,18 +8,18 @@ use ::gltf::json::validation::Checked;
 use ::gltf::json::{self, Index};
 use glam::{DAffine2, DMat2, DVec2, Vec2, Vec3};
 
-use super::file::File;
+use super::file::GltfFile;
 use crate::colour::Rgb;
 use crate::error::Result;
 use crate::scene::notes::listed;
 use crate::scene::texture::{
-    Picture, UvMapping, attach_pictures, decode, note_missing, without_picture,
+    MappedTexture, UvMapping, attach_pictures, decode, note_missing, without_picture,
 };
 use crate::scene::{Material, Sampler, Scene, Texture, Wrap};
 
 /// What materials say that does not go into the scene's.
 #[derive(Default)]
-pub(super) struct Known {
+pub(super) struct ImportedMaterials {
     /// How each of them maps texture coordinates.
     pub(super) mappings: Vec<UvMapping>,
     /// Indices of those that let most light through.
@@ -27,15 +27,15 @@ pub(super) struct Known {
 }
 
 /// Reads all materials into `scene`.
-pub(super) fn read(file: &File, scene: &mut Scene) -> Result<Known> {
-    let mut reader = Reader {
+pub(super) fn read(file: &GltfFile, scene: &mut Scene) -> Result<ImportedMaterials> {
+    let mut reader = MaterialReader {
         file,
         scene,
         pictures: HashMap::new(),
         decoded: HashMap::new(),
         pictureless: Vec::new(),
     };
-    let mut known = Known::default();
+    let mut known = ImportedMaterials::default();
     let (mut metals, mut clear) = (Vec::new(), Vec::new());
     let mut dim = Vec::new();
     for (index, from) in file.root.materials.iter().enumerate() {
@@ -102,8 +102,8 @@ fn is_metal(material: &json::Material) -> bool {
     pbr.metallic_factor.0 > 0.5 && pbr.metallic_roughness_texture.is_none() && !glossy
 }
 
-struct Reader<'a> {
-    file: &'a File,
+struct MaterialReader<'a> {
+    file: &'a GltfFile,
     scene: &'a mut Scene,
     /// Index into the scene's textures by glTF image and sampler; `None` for unreadable ones.
     pictures: HashMap<(usize, Sampler), Option<u32>>,
@@ -113,7 +113,7 @@ struct Reader<'a> {
     pictureless: Vec<String>,
 }
 
-impl Reader<'_> {
+impl MaterialReader<'_> {
     fn material(&mut self, index: usize, from: &json::Material) -> Result<(Material, UvMapping)> {
         let pbr = &from.pbr_metallic_roughness;
         let strength = from.extensions.as_ref().and_then(|all| all.emissive_strength.as_ref());
@@ -143,13 +143,14 @@ impl Reader<'_> {
         let glows = material.emission != Rgb::ZERO;
         let emission = self.picture(from.emissive_texture.as_ref().filter(|_| glows))?;
         let mapping = attach_pictures(self.scene, &mut material, reflectance, emission);
-        let has_holes =
-            |picture: &Picture| !self.scene.textures[picture.texture as usize].alpha.is_empty();
+        let has_holes = |picture: &MappedTexture| {
+            !self.scene.textures[picture.texture as usize].alpha.is_empty()
+        };
         material.cutoff = cutoff(from).filter(|_| reflectance.as_ref().is_some_and(has_holes));
         Ok((material, mapping))
     }
 
-    fn picture(&mut self, info: Option<&Info>) -> Result<Option<Picture>> {
+    fn picture(&mut self, info: Option<&Info>) -> Result<Option<MappedTexture>> {
         let Some(info) = info else { return Ok(None) };
         let texture = self.file.get(info.index, "texture")?;
         if self.file.root.get(texture.source).is_none() {
@@ -174,7 +175,7 @@ impl Reader<'_> {
                 read
             }
         };
-        Ok(texture.map(|texture| Picture { texture, mapping: mapping(info) }))
+        Ok(texture.map(|texture| MappedTexture { texture, mapping: mapping(info) }))
     }
 
     /// Reads a picture into the scene; an unreadable one costs a note, not the scene.

@@ -4,15 +4,15 @@ use ::gltf::json::scene::Node;
 use ::gltf::json::{self, Index};
 use glam::{DMat4, DQuat, DVec3, Mat4, Quat, Vec3};
 
-use super::Import;
-use super::primitives::Placement;
+use super::import::GltfImport;
+use super::pose::Placement;
 use crate::error::Result;
 use crate::scene::Node as SceneNode;
 
 /// A node, its transform to the world, and which of those placed is its parent.
-type Placed = (Index<Node>, DMat4, Option<u32>);
+type PlacedNode = (Index<Node>, DMat4, Option<u32>);
 
-impl Import<'_> {
+impl GltfImport<'_> {
     /// Adds what stands at the nodes of the chosen scene, parents before children, in the file's order.
     pub(super) fn add_nodes(&mut self) -> Result<()> {
         let placed = self.placed()?;
@@ -29,11 +29,11 @@ impl Import<'_> {
     }
 
     /// Every node of the chosen scene, once, parents before children.
-    fn placed(&self) -> Result<Vec<Placed>> {
+    fn placed(&self) -> Result<Vec<PlacedNode>> {
         let file = self.file;
         let mut placed = Vec::new();
         let mut visited = vec![false; file.root.nodes.len()];
-        let mut stack: Vec<Placed> =
+        let mut stack: Vec<PlacedNode> =
             self.roots()?.into_iter().rev().map(|root| (root, DMat4::IDENTITY, None)).collect();
         while let Some((index, above, parent)) = stack.pop() {
             let node = file.get(index, "node")?;

@@ -15,11 +15,9 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 use smallvec::SmallVec;
 
-use super::file::File;
+use super::extensions::{DRACO, MESHOPT};
+use super::file::GltfFile;
 use crate::error::Result;
-
-pub(super) const MESHOPT: &str = "EXT_meshopt_compression";
-pub(super) const DRACO: &str = "KHR_draco_mesh_compression";
 
 /// Most bytes that one byte of meshopt's may stand for; its densest code is a quarter of a byte for 16 equal ones.
 const MOST_UNPACKED: usize = 256;
@@ -55,7 +53,7 @@ fn said<T: DeserializeOwned>(
     Some(serde_json::from_value(value.clone()).map_err(|error| format!("{name}: {error}")))
 }
 
-impl File {
+impl GltfFile {
     /// Unpacks all that is compressed.
     pub(super) fn unpack(&mut self) -> Result<()> {
         for number in 0..self.root.buffer_views.len() {

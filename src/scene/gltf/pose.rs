@@ -6,9 +6,21 @@ use ::gltf::json::{Index, skin::Skin};
 use glam::{DMat3, DMat4, DVec3, Vec3};
 
 use super::accessors::Purpose;
-use super::file::File;
-use super::primitives::{Placement, list};
+use super::file::GltfFile;
 use crate::error::Result;
+
+/// Where and as what a primitive stands in the scene.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placement<'a> {
+    /// Mesh to world, unless joints pose it.
+    pub(super) transform: DMat4,
+    /// Mesh to world of each joint of a skin.
+    pub(super) joints: Option<&'a [DMat4]>,
+    /// By how much each morph target is added.
+    pub(super) weights: &'a [f32],
+    /// Index into the scene's objects.
+    pub(super) object: u32,
+}
 
 /// From a mesh to the world.
 pub(super) enum Pose {
@@ -21,9 +33,10 @@ pub(super) enum Pose {
 impl Pose {
     /// That of so many vertices. The transform of a node with a skin counts for nothing, as the format wants.
     pub(super) fn of(
-        file: &File,
+        file: &GltfFile,
         primitive: &Primitive,
-        (count, placement): (usize, Placement<'_>),
+        count: usize,
+        placement: Placement<'_>,
     ) -> Result<Self> {
         let has = |semantic| primitive.attributes.contains_key(&Checked::Valid(semantic));
         match placement.joints {
@@ -62,7 +75,7 @@ impl Pose {
     }
 }
 
-impl File {
+impl GltfFile {
     /// The matrix of each joint of a skin, from the mesh to the world; `transforms` are those of the scene's nodes.
     pub(super) fn joints(
         &self,
@@ -107,7 +120,7 @@ impl File {
                 (target.normals, Purpose::Normal, &mut *normals),
             ] {
                 let index = index.filter(|_| !values.is_empty());
-                let moves: Vec<[f64; 3]> = list(self, index, purpose, values.len())?;
+                let moves: Vec<[f64; 3]> = self.attribute(index, purpose, values.len())?;
                 for (value, by) in values.iter_mut().zip(moves) {
                     *value += DVec3::from(by) * f64::from(weight);
                 }
@@ -119,7 +132,7 @@ impl File {
 
 /// The matrix of each vertex: that of its joints, weighted.
 fn skinned(
-    file: &File,
+    file: &GltfFile,
     primitive: &Primitive,
     count: usize,
     joints: &[DMat4],
@@ -133,8 +146,8 @@ fn skinned(
         else {
             break;
         };
-        let numbers: Vec<[f64; 4]> = list(file, Some(numbers), Purpose::Joints, count)?;
-        let weights: Vec<[f64; 4]> = list(file, Some(weights), Purpose::Weights, count)?;
+        let numbers: Vec<[f64; 4]> = file.attribute(Some(numbers), Purpose::Joints, count)?;
+        let weights: Vec<[f64; 4]> = file.attribute(Some(weights), Purpose::Weights, count)?;
         let pairs = numbers.as_flattened().iter().zip(weights.as_flattened());
         for (place, (&number, &weight)) in
             pairs.enumerate().filter(|(_, (_, weight))| **weight > 0.0)

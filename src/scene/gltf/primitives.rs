@@ -5,29 +5,15 @@ use ::gltf::json::material::AlphaMode;
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Index, accessor::Accessor};
-use glam::{DMat4, DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use smallvec::SmallVec;
 
-use super::Import;
 use super::accessors::Purpose;
-use super::file::File;
-use super::pose::Pose;
+use super::import::GltfImport;
+use super::pose::{Placement, Pose};
 use crate::error::Result;
 use crate::scene::Face;
-use crate::scene::load::tamed;
-
-/// Where and as what a primitive stands in the scene.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Placement<'a> {
-    /// Mesh to world, unless joints pose it.
-    pub(super) transform: DMat4,
-    /// Mesh to world of each joint of a skin.
-    pub(super) joints: Option<&'a [DMat4]>,
-    /// By how much each morph target is added.
-    pub(super) weights: &'a [f32],
-    /// Index into the scene's objects.
-    pub(super) object: u32,
-}
+use crate::scene::limits::tamed;
 
 /// A primitive's vertices in the world; lists other than `positions` may be empty.
 struct Vertices {
@@ -38,7 +24,7 @@ struct Vertices {
     pose: Pose,
 }
 
-impl Import<'_> {
+impl GltfImport<'_> {
     /// Adds the triangles of `primitive`.
     pub(super) fn add_primitive(
         &mut self,
@@ -123,20 +109,17 @@ impl Import<'_> {
             None => return Err(self.file.fail("a primitive without POSITION")),
         };
         let expected = points.len();
-        let normals = list(self.file, attribute(Semantic::Normals), Purpose::Normal, expected)?;
+        let normals = attribute(Semantic::Normals);
+        let normals = self.file.attribute(normals, Purpose::Normal, expected)?;
         let [mut points, mut normals] =
             [points, normals].map(|list| list.into_iter().map(DVec3::from).collect::<Vec<_>>());
         self.file.morph(primitive, placement.weights, [&mut points, &mut normals])?;
-        let pose = Pose::of(self.file, primitive, (expected, placement))?;
-        let uvs = list(
-            self.file,
-            attribute(Semantic::TexCoords(mapping.set)),
-            Purpose::TexCoord,
-            expected,
-        )?;
+        let pose = Pose::of(self.file, primitive, expected, placement)?;
+        let uvs = attribute(Semantic::TexCoords(mapping.set));
+        let uvs = self.file.attribute(uvs, Purpose::TexCoord, expected)?;
         let colours = attribute(Semantic::Colors(0));
         self.skipped.alphas += usize::from(self.lets_through(primitive, colours)?);
-        let colours = list(self.file, colours, Purpose::Colour, expected)?;
+        let colours = self.file.attribute(colours, Purpose::Colour, expected)?;
         let tint = |colour: [f64; 3]| tamed(colour.into(), 1.0).as_vec3();
         Ok(Vertices {
             positions: pose.placed(points),
@@ -146,23 +129,6 @@ impl Import<'_> {
             pose,
         })
     }
-}
-
-/// An attribute's values, one a vertex, or nothing where the primitive has no such attribute.
-pub(super) fn list<const N: usize>(
-    file: &File,
-    index: Option<Index<Accessor>>,
-    purpose: Purpose,
-    expected: usize,
-) -> Result<Vec<[f64; N]>> {
-    let Some(index) = index else { return Ok(Vec::new()) };
-    let values = file.floats(index, purpose)?;
-    if values.len() != expected {
-        let count = values.len();
-        let message = format!("accessor {index} has {count} elements for {expected} vertices");
-        return Err(file.fail(message));
-    }
-    Ok(values)
 }
 
 impl Vertices {

@@ -7,13 +7,14 @@ use std::path::{Path, PathBuf};
 use glam::{DAffine2, DMat2, DVec2};
 
 use super::holes::{self, with_holes};
-use super::mtl::{self, Map, MtlMaterial};
+use super::mtl::{self, MtlMaterial, TextureMap};
+use super::scan::UseMtl;
 use crate::colour::Rgb;
 use crate::scene::named::find;
 use crate::scene::notes::listed;
 use crate::scene::text::{self, without_comment, words};
 use crate::scene::texture::{
-    Picture, UvMapping, attach_pictures, decode, note_missing, without_picture,
+    MappedTexture, UvMapping, attach_pictures, decode, note_missing, without_picture,
 };
 use crate::scene::{Material, Scene, Texture};
 
@@ -131,10 +132,10 @@ impl Library {
     fn cut_out(
         &mut self,
         material: &str,
-        colours: Option<Picture>,
-        opacities: Picture,
+        colours: Option<MappedTexture>,
+        opacities: MappedTexture,
         scene: &mut Scene,
-    ) -> Option<Picture> {
+    ) -> Option<MappedTexture> {
         if colours.is_some_and(|colours| colours.mapping != opacities.mapping) {
             scene.notes.push(format!(
                 "material \"{material}\": the opacity picture is laid on unlike the colour picture; it is ignored"
@@ -143,10 +144,15 @@ impl Library {
         }
         let key = (colours.map(|colours| colours.texture), opacities.texture);
         let made = self.holes.entry(key).or_insert_with(|| with_holes(scene, key.0, key.1));
-        made.map(|texture| Picture { texture, ..opacities })
+        made.map(|texture| MappedTexture { texture, ..opacities })
     }
 
-    fn picture(&mut self, library: &Path, map: &Map, scene: &mut Scene) -> Option<Picture> {
+    fn picture(
+        &mut self,
+        library: &Path,
+        map: &TextureMap,
+        scene: &mut Scene,
+    ) -> Option<MappedTexture> {
         let folder = library.parent().unwrap_or(Path::new(""));
         let names = [Some(map.file.as_str()), without_comment(&map.file)];
         let found = names.into_iter().flatten().find_map(|name| {
@@ -164,7 +170,10 @@ impl Library {
             self.pictures.insert(key.clone(), texture);
         }
         let texture = self.pictures.get(&key).copied().flatten()?;
-        Some(Picture { texture, mapping: UvMapping { set: 0, transform: from_bottom_left(map) } })
+        Some(MappedTexture {
+            texture,
+            mapping: UvMapping { set: 0, transform: from_bottom_left(map) },
+        })
     }
 
     /// The use of the material that a name in an OBJ file means.
@@ -173,16 +182,11 @@ impl Library {
         self.by_name.get(name).or_else(short).or_else(|| self.by_short_name.get(name)).copied()
     }
 
-    /// The uses of the materials in `names`; unknown ones look like the default, under their own name, with a note.
-    pub(super) fn resolve(
-        &mut self,
-        path: &Path,
-        names: &[(usize, String)],
-        scene: &mut Scene,
-    ) -> Vec<Use> {
+    /// The uses of the materials `named`; unknown ones look like the default, under their own name, with a note.
+    pub(super) fn resolve(&mut self, path: &Path, named: &[UseMtl], scene: &mut Scene) -> Vec<Use> {
         let (mut unknown, mut first) = (Vec::new(), 0);
-        let mut uses = Vec::with_capacity(names.len());
-        for (line, name) in names {
+        let mut uses = Vec::with_capacity(named.len());
+        for UseMtl { line, name } in named {
             let used = self.named(name);
             uses.push(used.unwrap_or_else(|| {
                 first = if unknown.is_empty() { *line } else { first };
@@ -230,7 +234,7 @@ fn library_files(folder: &Path, names: &str, notes: &mut Vec<String>) -> Vec<Pat
     if taken.is_empty() { vec![folder.join(names.trim_matches('"'))] } else { taken }
 }
 
-fn read_picture(file: &Path, map: &Map, scene: &mut Scene) -> Option<u32> {
+fn read_picture(file: &Path, map: &TextureMap, scene: &mut Scene) -> Option<u32> {
     scene.files.push(file.to_owned());
     let bytes = fs::read(file).map_err(|error| error.to_string());
     let name = file.file_name().unwrap_or_default().to_string_lossy();
@@ -247,7 +251,7 @@ fn read_picture(file: &Path, map: &Map, scene: &mut Scene) -> Option<u32> {
 }
 
 /// Scales and moves as the map says, then counts v from the top instead of the bottom.
-fn from_bottom_left(map: &Map) -> DAffine2 {
+fn from_bottom_left(map: &TextureMap) -> DAffine2 {
     let laid = DAffine2::from_mat2_translation(DMat2::from_diagonal(map.scale), map.offset);
     let upside_down = DMat2::from_diagonal(DVec2::new(1.0, -1.0));
     DAffine2::from_mat2_translation(upside_down, DVec2::Y) * laid

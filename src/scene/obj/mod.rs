@@ -2,21 +2,22 @@
 
 mod holes;
 mod library;
+mod lists;
 mod mtl;
 mod scan;
 mod smoothing;
 
 use std::io::Read;
-use std::ops::Range;
 use std::path::Path;
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec3, Vec3};
 use smallvec::SmallVec;
 
 use self::library::{Library, Use};
-use self::scan::{FaceLine, Scan};
+use self::lists::MeshLists;
+use self::scan::Scan;
 use super::notes::note_count;
-use super::{Face, MAX_REFLECTANCE, Scene, text};
+use super::{MAX_REFLECTANCE, Scene, text};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
 
@@ -33,13 +34,13 @@ pub(super) fn read(path: &Path) -> Result<Scene> {
     let nameless = scan.faces.iter().any(|face| face.material.is_none());
     let fallback = nameless.then(|| library.fallback(&mut scene));
     scene.positions = mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
-    let corners = Corners::new(&mesh);
+    let lists = MeshLists::new(&mesh);
     let mut start = 0;
     for (index, line) in scan.faces.iter().enumerate() {
         let used =
             line.material.and_then(|material| uses.get(material as usize)).or(fallback.as_ref());
         let end = start + mesh.face_arities.get(index).map_or(3, |&arity| arity as usize);
-        let face = used.and_then(|used| corners.face(start..end, line, used));
+        let face = used.and_then(|used| lists.face(start..end, line, used));
         scene.faces.push(face.ok_or_else(|| unreadable(path, "faces and corners do not match"))?);
         start = end;
     }
@@ -92,46 +93,4 @@ fn note_ignored(scan: &Scan, notes: &mut Vec<String>) {
     note_count(notes, scan.loose, "point-or-line element", "ignored");
     note_count(notes, scan.free_form, "free-form element", "ignored");
     note_count(notes, scan.unused(), "position", "that no face uses ignored");
-}
-
-/// The parser's flat lists, read face by face.
-struct Corners {
-    vertices: Vec<u32>,
-    uvs: Vec<DVec2>,
-    normals: Vec<Vec3>,
-}
-
-impl Corners {
-    fn new(mesh: &tobj::Mesh) -> Self {
-        let uv = |&index: &u32| mesh.texcoords.get(2 * index as usize..).and_then(|uv| uv.get(..2));
-        let normal = |&index: &u32| mesh.normals.get(3 * index as usize..).and_then(|n| n.get(..3));
-        Self {
-            vertices: mesh.indices.clone(),
-            uvs: mesh.texcoord_indices.iter().filter_map(uv).map(DVec2::from_slice).collect(),
-            normals: (mesh.normal_indices.iter().filter_map(normal))
-                .map(|normal| DVec3::from_slice(normal).normalize_or_zero().as_vec3())
-                .collect(),
-        }
-    }
-
-    /// The face at `range` of the lists; `None` if they are shorter.
-    ///
-    /// Where a corner lacks a texture coordinate or a normal the parser makes one up, so these
-    /// are only taken when the line has all of them.
-    fn face(&self, range: Range<usize>, line: &FaceLine, used: &Use) -> Option<Face> {
-        let mut face = Face {
-            vertices: self.vertices.get(range.clone())?.into(),
-            material: used.material,
-            object: line.object,
-            ..Face::default()
-        };
-        if line.has_uvs {
-            let uvs: &[DVec2] = self.uvs.get(range.clone())?;
-            face.uvs = uvs.iter().map(|&uv| used.mapping.apply(uv)).collect::<SmallVec<_>>();
-        }
-        if line.has_normals {
-            face.normals = self.normals.get(range)?.into();
-        }
-        Some(face)
-    }
 }

@@ -17,11 +17,11 @@ pub(super) struct MtlMaterial {
     /// Emitted radiance `Ke`, W/(m² sr).
     pub(super) emission: Option<Rgb>,
     /// `map_Kd`.
-    pub(super) reflectance_map: Option<Map>,
+    pub(super) reflectance_map: Option<TextureMap>,
     /// `map_Ke`.
-    pub(super) emission_map: Option<Map>,
+    pub(super) emission_map: Option<TextureMap>,
     /// `map_d`.
-    pub(super) opacity_map: Option<Map>,
+    pub(super) opacity_map: Option<TextureMap>,
     /// True if `d` or, without it, `Tr` says that light comes through.
     pub(super) transparent: bool,
     /// True if `d` has been read.
@@ -30,14 +30,14 @@ pub(super) struct MtlMaterial {
 
 /// A picture as a `map_` line names it.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Map {
+pub(super) struct TextureMap {
     pub(super) file: String,
     pub(super) scale: DVec2,
     pub(super) offset: DVec2,
     pub(super) clamp: bool,
 }
 
-impl Map {
+impl TextureMap {
     /// How the picture is read.
     pub(super) fn sampler(&self) -> Sampler {
         let wrap = if self.clamp { Wrap::Clamp } else { Wrap::Repeat };
@@ -101,8 +101,9 @@ fn colour(rest: &str) -> Result<Rgb, String> {
 }
 
 /// Reads `[-option values]... file name with spaces`.
-fn map(rest: &str) -> Result<Map, String> {
-    let mut map = Map { file: String::new(), scale: DVec2::ONE, offset: DVec2::ZERO, clamp: false };
+fn map(rest: &str) -> Result<TextureMap, String> {
+    let mut map =
+        TextureMap { file: String::new(), scale: DVec2::ONE, offset: DVec2::ZERO, clamp: false };
     let mut rest = rest;
     while let Some(option) = rest.strip_prefix('-') {
         let (name, values) = keyword(option);
@@ -177,7 +178,7 @@ mod tests {
     #[test]
     fn map_options_are_read_or_skipped() {
         let line = "-blendu on -mm 0 1 -s 2 3 1 -o 0.5 -clamp on my wood 1.png";
-        let expected = Map {
+        let expected = TextureMap {
             file: "my wood 1.png".to_owned(),
             scale: DVec2::new(2., 3.),
             offset: DVec2::new(0.5, 0.),

@@ -19,8 +19,8 @@ pub(super) struct Scan {
     pub(super) faces: Vec<FaceLine>,
     /// Names of the objects and groups that have polygons.
     pub(super) objects: Vec<String>,
-    /// Names of materials in the order of their first use, with the line of it.
-    pub(super) materials: Vec<(usize, String)>,
+    /// Materials in the order of their first use.
+    pub(super) materials: Vec<UseMtl>,
     /// Names of material libraries.
     pub(super) libraries: Vec<String>,
     /// Checked `v`, `vt`, `vn` lines.
@@ -39,6 +39,13 @@ pub(super) struct Scan {
     numbers: HashMap<String, u32>,
     /// Numbers of positions, texture coordinates and normals.
     counts: [usize; 3],
+}
+
+/// A material's name, and the first line that uses it.
+#[derive(Debug)]
+pub(super) struct UseMtl {
+    pub(super) line: usize,
+    pub(super) name: String,
 }
 
 /// What the file says about a polygon besides its corners.
@@ -60,7 +67,7 @@ pub(super) struct FaceLine {
 }
 
 /// What lines further up say about the polygons that follow.
-struct State {
+struct PolygonState {
     name: String,
     object: Option<u32>,
     material: Option<u32>,
@@ -76,7 +83,7 @@ const INDEX_NAMES: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 pub(super) fn scan(path: &Path, text: &str) -> Result<Scan> {
     let mut scan = Scan::default();
     let mut state =
-        State { name: "default".to_owned(), object: None, material: None, smoothing: 0 };
+        PolygonState { name: "default".to_owned(), object: None, material: None, smoothing: 0 };
     for (number, line) in lines(text) {
         scan.line(&mut state, number, &line)
             .map_err(|message| Error::at_line(path, number, message))?;
@@ -91,7 +98,7 @@ impl Scan {
         self.counts[0] - self.used.len()
     }
 
-    fn line(&mut self, state: &mut State, number: usize, line: &str) -> LineResult<()> {
+    fn line(&mut self, state: &mut PolygonState, number: usize, line: &str) -> LineResult<()> {
         let (word, rest) = keyword(line);
         match &*lowered(word) {
             "v" => self.vertex(rest)?,
@@ -166,7 +173,7 @@ impl Scan {
         self.counts[kind] += 1;
     }
 
-    fn face(&mut self, state: &mut State, number: usize, rest: &str) -> LineResult<()> {
+    fn face(&mut self, state: &mut PolygonState, number: usize, rest: &str) -> LineResult<()> {
         let corners: Vec<[usize; 3]> =
             words(rest).map(|word| self.corner(word)).collect::<LineResult<_>>()?;
         if corners.len() < 3 {
@@ -248,7 +255,7 @@ impl Scan {
             return Some(known);
         }
         let new = self.materials.len() as u32;
-        self.materials.push((number, name.to_owned()));
+        self.materials.push(UseMtl { line: number, name: name.to_owned() });
         self.numbers.insert(name.to_owned(), new);
         Some(new)
     }

@@ -9,13 +9,13 @@ use crate::scene::polygon::area_vector;
 use crate::scene::{Face, Scene};
 
 /// An object, a smoothing group in it, and the bits of a position.
-type Spot = (u32, u32, [u64; 3]);
+type SmoothingKey = (u32, u32, [u64; 3]);
 
 /// Gives faces in a smoothing group, and without normals of their own, the area-weighted mean
 /// normal of the group's faces of the same object around each corner.
 pub(super) fn smooth(scene: &mut Scene, lines: &[FaceLine]) {
     let places = &scene.positions;
-    let mut sums: HashMap<Spot, DVec3> = HashMap::new();
+    let mut sums: HashMap<SmoothingKey, DVec3> = HashMap::new();
     for (face, line) in scene.faces.iter().zip(lines).filter(|(_, line)| line.smoothing > 0) {
         let corners: Vec<DVec3> = corners(places, face).collect();
         let normal = area_vector(&corners);
@@ -37,7 +37,7 @@ fn corners<'a>(places: &'a [DVec3], face: &'a Face) -> impl Iterator<Item = DVec
     face.vertices.iter().map(|&vertex| places[vertex as usize])
 }
 
-fn spot(line: &FaceLine, position: DVec3) -> Spot {
+fn spot(line: &FaceLine, position: DVec3) -> SmoothingKey {
     // Adding zero makes -0 and 0 one place.
     (line.object, line.smoothing, (position + DVec3::ZERO).to_array().map(f64::to_bits))
 }

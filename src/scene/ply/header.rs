@@ -56,7 +56,7 @@ impl Number {
 
 /// A number, or a list with the type of its length first.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Kind {
+pub(super) enum PropertyKind {
     One(Number),
     List(Number, Number),
 }
@@ -64,21 +64,21 @@ pub(super) enum Kind {
 #[derive(Debug)]
 pub(super) struct Property {
     pub(super) name: String,
-    pub(super) kind: Kind,
+    pub(super) kind: PropertyKind,
 }
 
 /// A table.
 #[derive(Debug)]
-pub(super) struct Element {
+pub(super) struct PlyElement {
     pub(super) name: String,
     pub(super) count: u64,
     pub(super) properties: Vec<Property>,
 }
 
 #[derive(Debug)]
-pub(super) struct Header {
+pub(super) struct PlyHeader {
     pub(super) encoding: Encoding,
-    pub(super) elements: Vec<Element>,
+    pub(super) elements: Vec<PlyElement>,
     /// Whether a comment names a picture.
     pub(super) has_picture: bool,
 }
@@ -87,8 +87,9 @@ pub(super) struct Header {
 const LONGEST: usize = 1 << 16;
 
 /// The header of the file at `path`, and where its numbers begin.
-pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<(Header, usize)> {
-    let mut header = Header { encoding: Encoding::Text, elements: Vec::new(), has_picture: false };
+pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<(PlyHeader, usize)> {
+    let mut header =
+        PlyHeader { encoding: Encoding::Text, elements: Vec::new(), has_picture: false };
     let (mut start, mut number, mut formatted) = (0, 0, false);
     while let Some((line, next)) = line(bytes, start) {
         (start, number) = (next, number + 1);
@@ -108,7 +109,7 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<(Header, usize)> {
             ["element", name, count] => {
                 let count = count.parse().map_err(|_| wrong(format!("\"{count}\" is no count")))?;
                 let name = name.to_ascii_lowercase();
-                header.elements.push(Element { name, count, properties: Vec::new() });
+                header.elements.push(PlyElement { name, count, properties: Vec::new() });
             }
             ["property", .., name] => {
                 let kind = kind(&words[1..words.len() - 1]);
@@ -144,10 +145,12 @@ fn encoding(name: &str) -> std::result::Result<Encoding, String> {
     }
 }
 
-fn kind(words: &[&str]) -> Option<Kind> {
+fn kind(words: &[&str]) -> Option<PropertyKind> {
     match *words {
-        ["list", length, item] => Some(Kind::List(Number::named(length)?, Number::named(item)?)),
-        [number] => Some(Kind::One(Number::named(number)?)),
+        ["list", length, item] => {
+            Some(PropertyKind::List(Number::named(length)?, Number::named(item)?))
+        }
+        [number] => Some(PropertyKind::One(Number::named(number)?)),
         _ => None,
     }
 }

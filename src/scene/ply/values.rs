@@ -1,6 +1,6 @@
 //! The numbers of a PLY file, one after another.
 
-use super::header::{Encoding, Kind, Number, Property};
+use super::header::{Encoding, Number, Property, PropertyKind};
 
 /// What is left to read.
 pub(super) struct Values<'a> {
@@ -21,8 +21,8 @@ impl<'a> Values<'a> {
     ) -> Result<f64, String> {
         let told = |why: String| format!("{}: {why}", property.name);
         let (length, item) = match property.kind {
-            Kind::One(number) => return self.next(number).map_err(told),
-            Kind::List(length, item) => (self.next(length).map_err(told)?, item),
+            PropertyKind::One(number) => return self.next(number).map_err(told),
+            PropertyKind::List(length, item) => (self.next(length).map_err(told)?, item),
         };
         if !(length >= 0.0 && length.fract() == 0.0) {
             return Err(told(format!("a list of {length} items")));

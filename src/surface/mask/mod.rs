@@ -11,9 +11,9 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
 use rayon::prelude::*;
 
-use super::TOLERANCE;
-use super::merge::{Look, Region};
-use super::partly::{plain, rings_of};
+use super::merge::PlanarRegion;
+use super::model::TOLERANCE;
+use super::partial_overlap::{plain, rings_of};
 use super::polygon::{Ring, area, bounds};
 use super::tint::Widest;
 use crate::scene::{Face, Material, Scene, Texture, counted, note_count};
@@ -58,7 +58,11 @@ type Key = ([u64; 2], (u64, usize), Lattice);
 ///
 /// Outlines have few corners, since each is a corner of what light falls on and is held back by, but the area that the
 /// picture covers. What is seen of them has the picture's holes besides.
-pub(super) fn cut(scene: &Scene, regions: Vec<Region>, notes: &mut Vec<String>) -> Vec<Region> {
+pub(super) fn cut(
+    scene: &Scene,
+    regions: Vec<PlanarRegion>,
+    notes: &mut Vec<String>,
+) -> Vec<PlanarRegion> {
     let cut_outs: Vec<CutOut> =
         (0..regions.len()).filter_map(|region| CutOut::new(scene, &regions, region)).collect();
     if cut_outs.is_empty() {
@@ -84,7 +88,7 @@ pub(super) fn cut(scene: &Scene, regions: Vec<Region>, notes: &mut Vec<String>) 
     let left: Vec<Left> = cut_outs.par_iter().zip(&keys).map(left).collect();
     tell(&cut_outs, &regions, &left, notes);
     let mut left: BTreeMap<usize, Left> = cut_outs.iter().map(|one| one.region).zip(left).collect();
-    let pieces = |(number, region): (usize, Region)| match left.remove(&number) {
+    let pieces = |(number, region): (usize, PlanarRegion)| match left.remove(&number) {
         None | Some(Left::All) => vec![region],
         Some(Left::Nothing) => Vec::new(),
         Some(Left::Pieces(pieces)) => split(scene, &region, pieces),
@@ -100,7 +104,7 @@ enum Left {
 }
 
 impl<'a> CutOut<'a> {
-    fn new(scene: &'a Scene, regions: &[Region], region: usize) -> Option<Self> {
+    fn new(scene: &'a Scene, regions: &[PlanarRegion], region: usize) -> Option<Self> {
         let face = &scene.faces[regions[region].faces[0]];
         let Material { texture, cutoff, .. } = &scene.materials[face.material as usize];
         let (number, cutoff) = ((*texture)?, (*cutoff)?);
@@ -109,7 +113,7 @@ impl<'a> CutOut<'a> {
             return None;
         }
         let counts = DVec2::new(f64::from(texture.width), f64::from(texture.height));
-        let texels = regions[region].look.uv.map(|uv| scaled(uv, counts)).filter(|texels| {
+        let texels = regions[region].attributes.uv.map(|uv| scaled(uv, counts)).filter(|texels| {
             let [first, second] = [texels.matrix2.x_axis, texels.matrix2.y_axis];
             // Texels much longer than wide come of a picture that is drawn out of a line of it.
             texels.inverse().is_finite()
@@ -120,7 +124,7 @@ impl<'a> CutOut<'a> {
     }
 
     /// What the outlines on the region depend on.
-    fn key(&self, regions: &[Region], corners: usize, detail: f64) -> Option<Key> {
+    fn key(&self, regions: &[PlanarRegion], corners: usize, detail: f64) -> Option<Key> {
         let texels = self.texels?;
         let rings = &regions[self.region].rings;
         let places: Vec<DVec2> =
@@ -146,7 +150,7 @@ impl<'a> CutOut<'a> {
     }
 
     /// What is left of its region.
-    fn left(&self, region: &Region, opaque: Option<&Opaque>, tolerance: f64) -> Left {
+    fn left(&self, region: &PlanarRegion, opaque: Option<&Opaque>, tolerance: f64) -> Left {
         match (opaque, self.texels) {
             (Some(Opaque::Whole), _) => Left::All,
             (Some(Opaque::Within(rings)), Some(texels)) => {
@@ -203,15 +207,15 @@ fn size(piece: &[Ring]) -> f64 {
 }
 
 /// The pieces of a region, each a region of its own.
-fn split(scene: &Scene, region: &Region, pieces: Vec<Vec<Ring>>) -> Vec<Region> {
+fn split(scene: &Scene, region: &PlanarRegion, pieces: Vec<Vec<Ring>>) -> Vec<PlanarRegion> {
     let face = &scene.faces[region.faces[0]];
     let slopes = (!region.normals.is_empty()).then(|| Normals::of(scene, region, face)).flatten();
     let piece = |rings: Vec<Ring>| {
         let outer = rings.first().into_iter().flatten();
         let normals = slopes.as_ref().map(|slopes| outer.map(|&p| slopes.at(p)).collect());
-        let &Region { plane, look: Look { uv, tint }, .. } = region;
+        let &PlanarRegion { plane, attributes, .. } = region;
         let (faces, normals) = (region.faces.clone(), normals.unwrap_or_default());
-        Region { plane, faces, rings, look: Look { uv, tint }, normals }
+        PlanarRegion { plane, faces, rings, attributes, normals }
     };
     pieces.into_iter().map(piece).collect()
 }
@@ -224,7 +228,7 @@ struct Normals {
 }
 
 impl Normals {
-    fn of(scene: &Scene, region: &Region, face: &Face) -> Option<Self> {
+    fn of(scene: &Scene, region: &PlanarRegion, face: &Face) -> Option<Self> {
         let places: Vec<DVec2> =
             face.corners(&scene.positions).into_iter().map(|p| region.plane.flatten(p)).collect();
         let widest = Widest::of(&places)?;
@@ -245,7 +249,7 @@ impl Normals {
 }
 
 /// One line on what was cut, and one on what could not be.
-fn tell(cut_outs: &[CutOut], regions: &[Region], left: &[Left], notes: &mut Vec<String>) {
+fn tell(cut_outs: &[CutOut], regions: &[PlanarRegion], left: &[Left], notes: &mut Vec<String>) {
     let (mut faces, mut pieces, mut unplaced) = (0, 0, 0);
     let (mut covered, mut whole) = (0.0, 0.0);
     for (one, left) in cut_outs.iter().zip(left) {

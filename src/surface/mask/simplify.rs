@@ -106,7 +106,7 @@ struct Change {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Corner {
+struct RingCorner {
     place: DVec2,
     before: usize,
     after: usize,
@@ -119,7 +119,7 @@ const GONE: u32 = u32::MAX;
 
 /// All corners, linked along their rings.
 struct Chain {
-    corners: Vec<Corner>,
+    corners: Vec<RingCorner>,
     /// Corners by ring.
     counts: Vec<usize>,
 }
@@ -129,7 +129,7 @@ impl Chain {
         let mut corners = Vec::new();
         for (number, ring) in rings.iter().enumerate() {
             let (first, count) = (corners.len(), ring.len());
-            corners.extend(ring.iter().enumerate().map(|(k, &place)| Corner {
+            corners.extend(ring.iter().enumerate().map(|(k, &place)| RingCorner {
                 place,
                 before: first + (k + count - 1) % count,
                 after: first + (k + 1) % count,
@@ -147,7 +147,7 @@ impl Chain {
     }
 
     fn change(&self, corner: usize) -> Change {
-        let Corner { ring, version, .. } = self.corners[corner];
+        let RingCorner { ring, version, .. } = self.corners[corner];
         let places = self.around(corner).map(|k| self.corners[k].place);
         let moved = match self.counts[ring] {
             0..=3 => area(&places[..3]).abs(),

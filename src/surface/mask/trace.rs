@@ -74,7 +74,7 @@ pub(super) enum Opaque {
 ///
 /// [Maple 2003]: https://doi.org/10.1109/GMAG.2003.1219671
 pub(super) fn outline(texture: &Texture, cutoff: f64, lattice: Lattice) -> Opaque {
-    let tracer = Tracer {
+    let tracer = ContourTracer {
         heights: lattice.heights(texture, cutoff),
         lattice,
         is_stepped: texture.sampler.nearest,
@@ -88,7 +88,7 @@ pub(super) fn outline(texture: &Texture, cutoff: f64, lattice: Lattice) -> Opaqu
     Opaque::Within(tracer.rings())
 }
 
-struct Tracer {
+struct ContourTracer {
     lattice: Lattice,
     heights: Vec<f64>,
     /// Whether opacity is the same all over a texel.
@@ -98,7 +98,7 @@ struct Tracer {
 /// No edge of the lattice.
 const NONE: u32 = u32::MAX;
 
-impl Tracer {
+impl ContourTracer {
     fn rings(&self) -> Vec<Ring> {
         let mut next = self.crossed_cells();
         let mut rings = Vec::new();

@@ -5,8 +5,9 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
 
-use super::merge::Region;
-use super::overlap::{Rank, are_level};
+use super::coplanar::{Rank, are_level};
+use super::merge::PlanarRegion;
+
 use super::polygon::{Ring, area, bounds};
 
 /// What one polygon has in common with another is nothing if it is narrower than this many tolerances.
@@ -18,15 +19,15 @@ const NARROW: f64 = 10.0;
 /// Where three overlap, the highest is what is left: what a region has lost, it has lost to a higher one,
 /// which cuts the lower ones, too.
 pub(super) fn cut(
-    regions: &mut Vec<Region>,
-    pairs: &[(usize, usize)],
+    regions: &mut Vec<PlanarRegion>,
+    pairs: &[[usize; 2]],
     ranks: &[Rank],
     tolerance: f64,
 ) -> usize {
     // What is left of those that were cut.
     let mut pieces: Vec<Option<Vec<Vec<Ring>>>> = vec![None; regions.len()];
     let mut count = 0;
-    for &(low, high) in pairs.iter().filter(|&&(low, high)| ranks[low] < ranks[high]) {
+    for &[low, high] in pairs.iter().filter(|&&[low, high]| ranks[low] < ranks[high]) {
         let (own, other) = (&regions[low], &regions[high]);
         if !are_level(own, other, tolerance) {
             continue;
@@ -44,7 +45,7 @@ pub(super) fn cut(
 }
 
 /// A ring of another region in the coordinates of this one.
-fn seen(own: &Region, other: &Region, ring: &Ring) -> Ring {
+fn seen(own: &PlanarRegion, other: &PlanarRegion, ring: &Ring) -> Ring {
     ring.iter().map(|&p| own.plane.flatten(other.plane.lift(p))).collect()
 }
 
@@ -86,7 +87,7 @@ pub(super) fn rings_of(shapes: Vec<Vec<Vec<[f64; 2]>>>) -> Vec<Vec<Ring>> {
 }
 
 /// Gives the regions what is left of them, each piece a region of its own.
-fn split(regions: &mut Vec<Region>, pieces: Vec<Option<Vec<Vec<Ring>>>>) {
+fn split(regions: &mut Vec<PlanarRegion>, pieces: Vec<Option<Vec<Vec<Ring>>>>) {
     let old = std::mem::take(regions);
     for (region, pieces) in old.into_iter().zip(pieces) {
         let Some(pieces) = pieces else {
@@ -94,10 +95,10 @@ fn split(regions: &mut Vec<Region>, pieces: Vec<Option<Vec<Vec<Ring>>>>) {
             continue;
         };
         for rings in pieces {
-            let Region { plane, ref faces, look, .. } = region;
+            let PlanarRegion { plane, ref faces, attributes, .. } = region;
             // Those of its old corners are not those of its new ones.
             let normals = Vec::new();
-            regions.push(Region { plane, faces: faces.clone(), rings, look, normals });
+            regions.push(PlanarRegion { plane, faces: faces.clone(), rings, attributes, normals });
         }
     }
 }

@@ -6,8 +6,8 @@ use fastrand::Rng;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::dice::mixed;
-use super::sampler::{R2, Sampler, Site};
+use super::path_tracer::{PathTracer, R2, Site};
+use super::sobol::mixed;
 use crate::surface::Surfaces;
 use crate::surface::cut::{Cuts, convex_pieces};
 
@@ -30,7 +30,7 @@ const STEEPEST: f64 = 0.1;
 const FLAT: f64 = 0.02;
 
 /// A triangle of a surface whose light can be told.
-struct Tile {
+struct SampleTriangle {
     surface: usize,
     corners: [DVec2; 3],
     area: f64,
@@ -38,26 +38,26 @@ struct Tile {
 
 /// A place and the area that it stands for, m².
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Placed {
+pub(super) struct SamplePoint {
     pub(super) site: Site,
     pub(super) area: f64,
 }
 
 /// About `count` places in proportion to area, one at least on each convex piece of a surface.
-pub(super) fn area_sites(surfaces: &Surfaces, count: usize, seed: u64) -> Vec<Placed> {
-    spread(surfaces, &tiles(surfaces), count, mixed(&[seed, 1]))
+pub(super) fn area_sites(surfaces: &Surfaces, count: usize, seed: u64) -> Vec<SamplePoint> {
+    spread(surfaces, &sample_triangles(surfaces), count, mixed(&[seed, 1]))
 }
 
 /// At most `count` places drawn from the tenth of many candidates at which the share of the lamps that is seen
 /// changes most, weighed by what they would send if nothing stood between.
-pub(super) fn shadow_sites(sampler: &Sampler<'_>, count: usize, seed: u64) -> Vec<Site> {
+pub(super) fn shadow_sites(tracer: &PathTracer<'_>, count: usize, seed: u64) -> Vec<Site> {
     if count == 0 {
         return Vec::new();
     }
-    let surfaces = sampler.surfaces;
-    let placed = spread(surfaces, &tiles(surfaces), CANDIDATES, mixed(&[seed, 2]));
+    let surfaces = tracer.surfaces;
+    let placed = spread(surfaces, &sample_triangles(surfaces), CANDIDATES, mixed(&[seed, 2]));
     let sites: Vec<Site> = placed.iter().map(|placed| placed.site).collect();
-    let steepness = steepness(sampler, &sites);
+    let steepness = steepness(tracer, &sites);
     let mut order: Vec<usize> = (0..sites.len()).filter(|&k| steepness[k] > 0.0).collect();
     order.sort_by(|&a, &b| steepness[b].total_cmp(&steepness[a]));
     let least = FLAT * order.first().map_or(0.0, |&first| steepness[first]);
@@ -68,7 +68,7 @@ pub(super) fn shadow_sites(sampler: &Sampler<'_>, count: usize, seed: u64) -> Ve
 }
 
 /// The surfaces that reflect and do not outshine that, in triangles.
-fn tiles(surfaces: &Surfaces) -> Vec<Tile> {
+fn sample_triangles(surfaces: &Surfaces) -> Vec<SampleTriangle> {
     let shown = surfaces.list.iter().enumerate();
     let shown = shown.filter(|(_, s)| s.reflects() && !s.is_emitter());
     let cuts = Cuts { segments: &[], size: f64::INFINITY, tolerance: surfaces.tolerance };
@@ -77,39 +77,44 @@ fn tiles(surfaces: &Surfaces) -> Vec<Tile> {
             .map(move |k| {
                 let corners = [ring[0], ring[k], ring[k + 1]];
                 let area = (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]) / 2.0;
-                Tile { surface, corners, area }
+                SampleTriangle { surface, corners, area }
             })
-            .collect::<Vec<Tile>>()
+            .collect::<Vec<SampleTriangle>>()
     };
     let pieces = shown.flat_map(|(number, surface)| {
         let pieces = convex_pieces(&surface.rings, &cuts).into_iter();
         pieces.map(move |piece| (number, piece.to_vec()))
     });
-    pieces.flat_map(fan).filter(|tile| tile.area > 0.0).collect()
+    pieces.flat_map(fan).filter(|triangle| triangle.area > 0.0).collect()
 }
 
-/// About `count` places on tiles, spread evenly over each.
-fn spread(surfaces: &Surfaces, tiles: &[Tile], count: usize, seed: u64) -> Vec<Placed> {
-    let total: f64 = tiles.iter().map(|tile| tile.area).sum();
+/// About `count` places on triangles, spread evenly over each.
+fn spread(
+    surfaces: &Surfaces,
+    sample_triangles: &[SampleTriangle],
+    count: usize,
+    seed: u64,
+) -> Vec<SamplePoint> {
+    let total: f64 = sample_triangles.iter().map(|triangle| triangle.area).sum();
     let mut random = Rng::with_seed(seed);
     let (mut before, mut given) = (0.0, 0);
     let mut placed = Vec::new();
-    for tile in tiles {
-        before += tile.area;
+    for triangle in sample_triangles {
+        before += triangle.area;
         let due = (before / total * count as f64 + 0.5) as usize;
         let own = (due - given).max(1);
         given = due;
         let shift = DVec2::new(random.f64(), random.f64());
-        let [a, b, c] = tile.corners;
-        let plane = &surfaces.list[tile.surface].plane;
+        let [a, b, c] = triangle.corners;
+        let plane = &surfaces.list[triangle.surface].plane;
         placed.extend((0..own).map(|k| {
             let mut at = (shift + R2 * k as f64).fract();
             if at.element_sum() > 1.0 {
                 at = DVec2::ONE - at;
             }
             let place = plane.lift(a + (b - a) * at.x + (c - a) * at.y);
-            let site = Site { surface: tile.surface, place, normal: plane.normal };
-            Placed { site, area: tile.area / own as f64 }
+            let site = Site { surface: triangle.surface, place, normal: plane.normal };
+            SamplePoint { site, area: triangle.area / own as f64 }
         }));
     }
     placed
@@ -117,17 +122,17 @@ fn spread(surfaces: &Surfaces, tiles: &[Tile], count: usize, seed: u64) -> Vec<P
 
 /// At each site, how steeply the lamps' visible share changes towards its neighbours on the surface, 1/m, times
 /// their unblocked irradiance, W/m².
-fn steepness(sampler: &Sampler<'_>, sites: &[Site]) -> Vec<f64> {
+fn steepness(tracer: &PathTracer<'_>, sites: &[Site]) -> Vec<f64> {
     let seen: Vec<(Option<f64>, f64)> = sites
         .par_iter()
         .map(|site| {
-            let direct = sampler.direct(site);
+            let direct = tracer.direct(site);
             let all = direct.unoccluded.element_sum() / 3.0;
             ((all > 0.0).then(|| direct.visible()), all)
         })
         .collect();
-    let reach = REACH * sampler.surfaces.extent;
-    let near = Near::new(sites.iter().map(|site| (site.place, site.surface)), reach);
+    let reach = REACH * tracer.surfaces.extent;
+    let near = PointGrid::new(sites.iter().map(|site| (site.place, site.surface)), reach);
     let slope = |number: usize| {
         let (visible, all) = (seen[number].0?, seen[number].1);
         let at = &sites[number];
@@ -148,12 +153,12 @@ fn steepness(sampler: &Sampler<'_>, sites: &[Site]) -> Vec<f64> {
 }
 
 /// Finds places of one kind near another.
-pub(super) struct Near {
+pub(super) struct PointGrid {
     cells: BTreeMap<(usize, [i64; 3]), Vec<usize>>,
     cell: f64,
 }
 
-impl Near {
+impl PointGrid {
     /// Of places and what kind they are; `reach` is how far one will look, m.
     pub(super) fn new(places: impl Iterator<Item = (DVec3, usize)>, reach: f64) -> Self {
         let cell = reach.max(f64::MIN_POSITIVE);

@@ -10,14 +10,14 @@ const EVEN: u32 = 8;
 /// dimensions evenly path by path, and pseudo-random ones beyond.
 ///
 /// [Burley 2020]: https://jcgt.org/published/0009/04/01/
-pub(super) struct Dice {
+pub(super) struct SobolSequence {
     path: u32,
     seed: u32,
     dimension: u32,
     random: Rng,
 }
 
-impl Dice {
+impl SobolSequence {
     /// The numbers of path so and so of those with a seed.
     pub(super) fn new(seed: u64, path: u32) -> Self {
         let random = Rng::with_seed(mixed(&[seed, u64::from(path)]));

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::daylight::{FEWEST_ENTERED, entering};
-use super::sight::Sight;
+use super::ray_casting::{ProbeRay, RayCaster};
+use super::sequence::{on_sphere, on_triangle, spread};
 use super::{Face, Light, NamedLight, Scene};
 use crate::colour::luminance;
 
@@ -37,32 +38,32 @@ pub fn settle_sides(scene: &mut Scene, sides: Sides) {
 }
 
 fn follow_light(scene: &mut Scene) {
-    let found = Found::in_scene(scene);
+    let survey = LampSurvey::in_scene(scene);
     let percent = |share: f64| format!("{:.0} %", 100.0 * share);
-    if found.is_inside_out() {
+    if survey.is_inside_out() {
         scene.faces.iter_mut().for_each(turn_over);
         scene.notes.push(format!(
             "all faces turned over: they showed lamps their backs ({} of the light behind lamps fell on backs, {} of \
              that before them on fronts); --two-sided off keeps them",
-            percent(found.behind),
-            percent(found.fronts)
+            percent(survey.behind),
+            percent(survey.fronts)
         ));
-    } else if found.backs > found.fronts || found.enters_behind() {
+    } else if survey.backs > survey.fronts || survey.enters_behind() {
         let lamps = |emission: DVec3| emission.max_element() > 0.0;
         for material in scene.materials.iter_mut().filter(|material| !lamps(material.emission)) {
             material.double_sided = true;
         }
-        let light = match found.enters_behind() {
+        let light = match survey.enters_behind() {
             true => "light that enters rooms from outside".to_owned(),
-            false => format!("{} of the light from lamps", percent(found.backs)),
+            false => format!("{} of the light from lamps", percent(survey.backs)),
         };
         scene.notes.push(format!(
             "both sides of faces reflect: {light} fell on backs; --two-sided off leaves those black"
         ));
-    } else if found.backs > WORTH_TELLING {
+    } else if survey.backs > WORTH_TELLING {
         scene.notes.push(format!(
             "{} of the light from lamps falls on backs, which are black; --two-sided on lights them",
-            percent(found.backs)
+            percent(survey.backs)
         ));
     }
 }
@@ -86,7 +87,7 @@ const RAYS: usize = 512;
 
 /// Where the light of lamps goes, as shares of it.
 #[derive(Debug, Default)]
-struct Found {
+struct LampSurvey {
     /// On fronts, or on faces with two sides.
     fronts: f64,
     /// On backs.
@@ -99,32 +100,32 @@ struct Found {
     entering: [usize; 2],
 }
 
-impl Found {
+impl LampSurvey {
     fn in_scene(scene: &Scene) -> Self {
         let one_sided = scene.materials.iter().any(|material| !material.double_sided);
         if !one_sided || !scene.is_lit() {
             return Self::default();
         }
-        let sight = Sight::new(scene);
-        let (before, behind) = rays_of_faces(scene, &sight, RAYS);
-        let mut found = Self::default();
+        let caster = RayCaster::new(scene);
+        let (before, behind) = rays_of_faces(scene, &caster, RAYS);
+        let mut survey = Self::default();
         let points = rays_of_lights(scene, RAYS);
         if before.is_empty() && points.is_empty() {
-            return Self { entering: entering(scene, &sight), ..Self::default() };
+            return Self { entering: entering(scene, &caster), ..Self::default() };
         }
-        let seen = sight.all(&[before, points].concat());
+        let seen = caster.all(&[before, points].concat());
         let total = seen.len().max(1) as f64;
         for hit in seen.iter().flatten() {
-            *(if hit.front { &mut found.fronts } else { &mut found.backs }) += 1.0 / total;
-            found.ways[0] += hit.distance;
+            *(if hit.front { &mut survey.fronts } else { &mut survey.backs }) += 1.0 / total;
+            survey.ways[0] += hit.distance;
         }
-        found.ways[0] /= (total * (found.fronts + found.backs)).max(1.0);
-        let seen = sight.all(&behind);
+        survey.ways[0] /= (total * (survey.fronts + survey.backs)).max(1.0);
+        let seen = caster.all(&behind);
         let backs = seen.iter().flatten().filter(|hit| !hit.front && !hit.lamp);
         let (count, way) = backs.fold((0.0, 0.0), |(n, sum), hit| (n + 1.0, sum + hit.distance));
-        found.behind = count / seen.len().max(1) as f64;
-        found.ways[1] = way / f64::max(count, 1.0);
-        found
+        survey.behind = count / seen.len().max(1) as f64;
+        survey.ways[1] = way / f64::max(count, 1.0);
+        survey
     }
 
     fn enters_behind(&self) -> bool {
@@ -140,16 +141,17 @@ impl Found {
     }
 }
 
-/// Starts and directions, the directions of unit length.
-type Ray = (DVec3, DVec3);
-
 /// Rays from both sides of the scene's lamps, as many from each as its share of the power.
-fn rays_of_faces(scene: &Scene, sight: &Sight, count: usize) -> (Vec<Ray>, Vec<Ray>) {
+fn rays_of_faces(
+    scene: &Scene,
+    caster: &RayCaster<'_>,
+    count: usize,
+) -> (Vec<ProbeRay>, Vec<ProbeRay>) {
     let power = |&face: &u32| {
         let material = &scene.materials[scene.faces[face as usize].material as usize];
         luminance(material.emission)
     };
-    let lamps: Vec<(f64, [DVec3; 3])> = sight
+    let lamps: Vec<(f64, [DVec3; 3])> = caster
         .triangles()
         .map(|(face, corners)| {
             let [a, b, c] = corners;
@@ -164,13 +166,12 @@ fn rays_of_faces(scene: &Scene, sight: &Sight, count: usize) -> (Vec<Ray>, Vec<R
         passed += power;
         while (index as f64 + 0.5) / (count as f64) < passed / total && index < count {
             let [s, t, u, v] = spread(index);
-            let (s, t) = if s + t > 1.0 { (1.0 - s, 1.0 - t) } else { (s, t) };
-            let start = a + s * (b - a) + t * (c - a);
+            let start = on_triangle([a, b, c], s, t);
             let normal = (b - a).cross(c - a).normalize_or_zero();
             // A point on the unit sphere around the normal's tip lies in a cosine-weighted direction.
             let direction = (normal + on_sphere(u, v)).normalize_or(normal);
-            before.push((start, direction));
-            behind.push((start, -direction));
+            before.push(ProbeRay { start, direction });
+            behind.push(ProbeRay { start, direction: -direction });
             index += 1;
         }
     }
@@ -178,11 +179,11 @@ fn rays_of_faces(scene: &Scene, sight: &Sight, count: usize) -> (Vec<Ray>, Vec<R
 }
 
 /// Rays from lights that stand somewhere, all around or in their cones.
-fn rays_of_lights(scene: &Scene, count: usize) -> Vec<Ray> {
+fn rays_of_lights(scene: &Scene, count: usize) -> Vec<ProbeRay> {
     let mut rays = Vec::new();
     let each = count / scene.lights.len().max(1);
     for NamedLight { light, .. } in &scene.lights {
-        let (place, axis, angle) = match *light {
+        let (start, axis, angle) = match *light {
             Light::Point { position, .. } => (position, DVec3::Y, std::f64::consts::PI),
             Light::Spot { position, direction, outer_angle, .. } => {
                 (position, direction, outer_angle)
@@ -194,24 +195,9 @@ fn rays_of_lights(scene: &Scene, count: usize) -> Vec<Ray> {
             // The cap of the sphere around the axis, in a frame of its own.
             let tip = on_sphere(1.0 - u * (1.0 - angle.cos()) / 2.0, v);
             let (x, z) = axis.any_orthonormal_pair();
-            rays.push((place, (tip.x * x + tip.y * axis + tip.z * z).normalize_or(axis)));
+            let direction = (tip.x * x + tip.y * axis + tip.z * z).normalize_or(axis);
+            rays.push(ProbeRay { start, direction });
         }
     }
     rays
-}
-
-/// The `index`-th point of a sequence that fills the unit cube of four dimensions evenly
-/// ([Roberts 2018](https://extremelearning.com.au/unreasonable-effectiveness-of-quasirandom-sequences/)).
-pub(super) fn spread(index: usize) -> [f64; 4] {
-    // Root of x⁵ = x + 1.
-    const ROOT: f64 = 1.167_303_978_261_418_7;
-    [1, 2, 3, 4].map(|power| (0.5 + (index + 1) as f64 / ROOT.powi(power)).fract())
-}
-
-/// The point of the unit sphere at shares of its height and its circumference.
-pub(super) fn on_sphere(u: f64, v: f64) -> DVec3 {
-    let height = 2.0 * u - 1.0;
-    let (sin, cos) = (std::f64::consts::TAU * v).sin_cos();
-    let radius = (1.0 - height * height).max(0.0).sqrt();
-    DVec3::new(radius * cos, height, radius * sin)
 }

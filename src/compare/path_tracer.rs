@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::dice::Dice;
+use super::sobol::SobolSequence;
 use crate::colour::Rgb;
 use crate::direct::Lamps;
 use crate::light::Direct;
@@ -44,13 +44,13 @@ pub(super) struct Found {
 
 /// Light of a scene anywhere: straight from emitters exactly, the rest by paths.
 #[derive(Debug)]
-pub(super) struct Sampler<'a> {
+pub(super) struct PathTracer<'a> {
     pub(super) surfaces: &'a Surfaces,
     occluders: Occluders,
     lamps: Lamps,
 }
 
-impl<'a> Sampler<'a> {
+impl<'a> PathTracer<'a> {
     pub(super) fn new(surfaces: &'a Surfaces) -> Self {
         // Of the mesh, only textured lamps have something: they are as many as it has patches of them.
         let mesh = Mesh::new(surfaces, &Settings::medium());
@@ -75,11 +75,11 @@ impl<'a> Sampler<'a> {
         let frame = frame(site.normal);
         let mut found = Found::default();
         for path in paths {
-            let mut dice = Dice::new(seed, path);
-            match self.meet(site.place, frame * cosine_weighted(dice.pair())) {
+            let mut numbers = SobolSequence::new(seed, path);
+            match self.meet(site.place, frame * cosine_weighted(numbers.pair())) {
                 None => found.escaped += 1,
                 Some((_, false)) => (),
-                Some((met, true)) => found.indirect += self.path(met, dice),
+                Some((met, true)) => found.indirect += self.path(met, numbers),
             }
         }
         found
@@ -109,7 +109,7 @@ impl<'a> Sampler<'a> {
     ///
     /// B = ρ (direct + B') with B' that of the place which the path meets next, and so on; from the second place
     /// on it goes on with a probability that falls with what it still carries, and then carries that much more.
-    fn path(&self, start: Site, mut dice: Dice) -> Rgb {
+    fn path(&self, start: Site, mut numbers: SobolSequence) -> Rgb {
         let (mut carried, mut light) = (Rgb::ONE, Rgb::ZERO);
         let mut site = start;
         for bounce in 0.. {
@@ -119,12 +119,12 @@ impl<'a> Sampler<'a> {
                 break;
             }
             let place = (site.place, site.normal);
-            light += carried * self.lamps.glimpse(&self.occluders, place, || dice.number());
-            if survival < 1.0 && dice.coin() >= survival {
+            light += carried * self.lamps.glimpse(&self.occluders, place, || numbers.number());
+            if survival < 1.0 && numbers.coin() >= survival {
                 break;
             }
             carried /= survival;
-            match self.meet(site.place, frame(site.normal) * cosine_weighted(dice.pair())) {
+            match self.meet(site.place, frame(site.normal) * cosine_weighted(numbers.pair())) {
                 Some((next, true)) => site = next,
                 _ => break,
             }

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::Stamp;
 use super::group::Group;
+use super::stamp::Stamp;
 use crate::colour::{Rgb, srgb_from_linear};
 use crate::reconstruct::TriMesh;
 use crate::scene::Texture;
@@ -14,7 +14,7 @@ pub(crate) const TONE_CURVE: &str = "PBR Neutral for diffuse surfaces, linear up
 
 /// A mesh, its stamp and the exposure that follows from both.
 #[derive(Debug)]
-pub(crate) struct Look<'a> {
+pub(crate) struct ExposedMesh<'a> {
     pub(crate) mesh: &'a TriMesh,
     pub(crate) stamp: &'a Stamp,
     /// Factor on radiosity before the tone curve, m²/W.
@@ -25,7 +25,7 @@ pub(crate) struct Look<'a> {
     pub(crate) whites: Vec<f64>,
 }
 
-impl<'a> Look<'a> {
+impl<'a> ExposedMesh<'a> {
     pub(crate) fn new(mesh: &'a TriMesh, stamp: &'a Stamp) -> Self {
         debug_assert!(mesh.positions.iter().all(|position| position.is_finite()));
         debug_assert!(mesh.normals.iter().all(|normal| normal.is_normalized()));
