@@ -10,7 +10,7 @@ use radiosity::form_factor::contour::point_to_polygon;
 use radiosity::form_factor::pair::{exchange, visible_exchange};
 use radiosity::form_factor::{Method, assemble, factors_at};
 use radiosity::mesh::{Mesh, Patch};
-use radiosity::visibility::{Facet, Occluders};
+use radiosity::visibility::{Occluders, PlanarPolygon};
 use radiosity::{Length, Settings, faces_of};
 use serde::Deserialize;
 
@@ -79,8 +79,8 @@ fn suite() -> Suite {
     serde_json::from_str(include_str!("cases.json")).unwrap()
 }
 
-fn facet(corners: &[DVec3]) -> Facet<'_> {
-    Facet::new(corners, normal(corners))
+fn facet(corners: &[DVec3]) -> PlanarPolygon<'_> {
+    PlanarPolygon::new(corners, normal(corners))
 }
 
 fn normal(corners: &[DVec3]) -> DVec3 {

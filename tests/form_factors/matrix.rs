@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use radiosity::form_factor::pair::{exchange, visible_exchange};
 use radiosity::form_factor::{Assembled, FormFactors, Method, assemble};
 use radiosity::mesh::Mesh;
-use radiosity::visibility::{Facet, HalfSpace, Occluders};
+use radiosity::visibility::{HalfSpace, Occluders, PlanarPolygon};
 use radiosity::{Length, Scene, Settings, surfaces_of};
 
 use crate::common::{Block, Stage, furnished_room};
@@ -136,9 +136,9 @@ fn triangle(centre: DVec3) -> impl Strategy<Value = [DVec3; 3]> {
         .prop_filter("slender", |[a, b, c]| (b - a).cross(c - a).length() > 0.3)
 }
 
-fn facet<'a>(corners: &'a [DVec3], towards: DVec3) -> Facet<'a> {
+fn facet<'a>(corners: &'a [DVec3], towards: DVec3) -> PlanarPolygon<'a> {
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
-    Facet::new(corners, normal * normal.dot(towards - corners[0]).signum())
+    PlanarPolygon::new(corners, normal * normal.dot(towards - corners[0]).signum())
 }
 
 #[test]
@@ -179,7 +179,7 @@ proptest! {
         let side = HalfSpace::new(DVec3::Z * 1.7, normal.normalize_or(DVec3::X));
         let parts = [side.clip(&b), side.complement().clip(&b)];
         let whole = parts.iter().filter(|part| !part.is_empty());
-        let sum: f64 = whole.map(|p| exchange(first, Facet { corners: p, ..second })).sum();
+        let sum: f64 = whole.map(|p| exchange(first, PlanarPolygon { corners: p, ..second })).sum();
         prop_assert!((there - sum).abs() < 2e-6 * there + 1e-9, "{there} whole, {sum} in parts");
     }
 

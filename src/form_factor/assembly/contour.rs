@@ -6,7 +6,7 @@ use super::contacts::Contacts;
 use super::{Row, facet};
 use crate::form_factor::pair::visible_exchange;
 use crate::mesh::Patch;
-use crate::visibility::{Facet, Occluders};
+use crate::visibility::{Occluders, PlanarPolygon};
 
 /// Error of an exchange, as a share of the smaller patch's area.
 ///
@@ -60,13 +60,13 @@ impl<'a> Exchanges<'a> {
             .filter(|(j, _)| *j != i && !self.contacts.is_backed(*j));
         let exchange = |(j, patch): (usize, &Patch)| {
             let corners: Vec<DVec3> = patch.corners.iter().rev().copied().collect();
-            self.with(i, j, Facet::new(&corners, -patch.normal))
+            self.with(i, j, PlanarPolygon::new(&corners, -patch.normal))
         };
         others.map(exchange).sum::<f64>() / self.patches[i].area
     }
 
     /// Exchange, m², of patch `i` with a side of patch `j`.
-    fn with(&self, i: usize, j: usize, side: Facet<'_>) -> f64 {
+    fn with(&self, i: usize, j: usize, side: PlanarPolygon<'_>) -> f64 {
         let this = facet(&self.patches[i]);
         if self.is_behind(i, side) || self.is_behind(j, this) {
             return 0.0;
@@ -74,7 +74,7 @@ impl<'a> Exchanges<'a> {
         visible_exchange(self.occluders, this, side, TOLERANCE)
     }
 
-    fn is_behind(&self, i: usize, facet: Facet<'_>) -> bool {
+    fn is_behind(&self, i: usize, facet: PlanarPolygon<'_>) -> bool {
         let (centre, radius) = self.spheres[i];
         facet.plane.depth(centre) <= -radius
     }

@@ -13,7 +13,7 @@ use super::hemicube::{DeltaFactors, Targets};
 use super::pair::{exchange, is_level};
 use super::rays::Sphere;
 use crate::mesh::Patch;
-use crate::visibility::{Facet, Occluders, PatchHierarchy};
+use crate::visibility::{Occluders, PatchHierarchy, PlanarPolygon};
 use crate::watch;
 
 pub use point::factors_at;
@@ -113,8 +113,8 @@ pub fn assemble(
     Assembled { factors, on_backs, rows: done }
 }
 
-fn facet(patch: &Patch) -> Facet<'_> {
-    Facet::new(&patch.corners, patch.normal)
+fn facet(patch: &Patch) -> PlanarPolygon<'_> {
+    PlanarPolygon::new(&patch.corners, patch.normal)
 }
 
 /// Computes rows 0..`count`, all threads at work, until `observe` breaks off.

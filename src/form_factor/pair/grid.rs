@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::cubature::at;
 use super::exchange;
 use super::occluded::{Seen, View, add, share};
-use crate::visibility::Facet;
+use crate::visibility::PlanarPolygon;
 
 /// A part of a quadrilateral, seen from three by three points: its corners, the middles of its edges
 /// and its centre.
@@ -102,7 +102,7 @@ impl Cell {
         let [s, t] = self.bounds;
         let places = [[s[0], t[0]], [s[1], t[0]], [s[1], t[1]], [s[0], t[1]]];
         let corners = places.map(|[s, t]| at(&self.quadrilateral, s, t).0);
-        exchange(Facet { corners: &corners, ..view.from }, view.to)
+        exchange(PlanarPolygon { corners: &corners, ..view.from }, view.to)
     }
 }
 

@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use super::contour::point_to_polygon_above;
 use crate::scene::area_vector;
-use crate::visibility::{Facet, HalfSpace, Polygon};
+use crate::visibility::{HalfSpace, PlanarPolygon, Polygon};
 
 pub use occluded::visible_exchange;
 
@@ -29,7 +29,7 @@ const ACCURACY: f64 = 1e-9;
 /// What of one lies behind the other is cut away. Near each other, the double integral along
 /// the contours; far apart, Gauss's rules over the smaller polygon of the form factor from a
 /// point, whose relative error is below 1e-6 there.
-pub fn exchange(a: Facet<'_>, b: Facet<'_>) -> f64 {
+pub fn exchange(a: PlanarPolygon<'_>, b: PlanarPolygon<'_>) -> f64 {
     let (Some(front_a), Some(front_b)) = (in_front(a, b), in_front(b, a)) else { return 0.0 };
     let (round_a, round_b) = (Round::about(&front_a), Round::about(&front_b));
     let gap = round_a.centre.distance(round_b.centre) - round_a.radius - round_b.radius;
@@ -62,7 +62,7 @@ pub fn by_contours(a: &[DVec3], b: &[DVec3]) -> f64 {
 
 /// True if two polygons lie in one plane, to within `tolerance`, m: then they exchange nothing, though
 /// in the limit of two that approach each other face to face they would.
-pub(super) fn is_level(a: Facet<'_>, b: Facet<'_>, tolerance: f64) -> bool {
+pub(super) fn is_level(a: PlanarPolygon<'_>, b: PlanarPolygon<'_>, tolerance: f64) -> bool {
     let above = |plane: &HalfSpace, corners: &[DVec3]| {
         corners.iter().any(|&corner| plane.depth(corner) > tolerance)
     };
@@ -70,7 +70,7 @@ pub(super) fn is_level(a: Facet<'_>, b: Facet<'_>, tolerance: f64) -> bool {
 }
 
 /// The part of `facet` in front of `other`'s plane, if there is one.
-fn in_front(facet: Facet<'_>, other: Facet<'_>) -> Option<Polygon> {
+fn in_front(facet: PlanarPolygon<'_>, other: PlanarPolygon<'_>) -> Option<Polygon> {
     let depth = |corner: &DVec3| other.plane.depth(*corner);
     if facet.corners.iter().all(|corner| depth(corner) >= 0.0) {
         return Some(Polygon::from_slice(facet.corners));

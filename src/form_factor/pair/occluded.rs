@@ -7,7 +7,7 @@ use super::grid::Cell;
 use super::{exchange, in_front, is_level};
 use crate::form_factor::contour::point_to_polygon_above;
 use crate::scene::area_vector;
-use crate::visibility::{Between, Facet, Occluders};
+use crate::visibility::{Between, Occluders, PlanarPolygon};
 
 /// Most cells that two polygons are divided in.
 const MOST_CELLS: usize = 512;
@@ -29,13 +29,19 @@ const MARGIN: f64 = 4.0;
 /// other polygon, integrated over cells that are halved where its share of all bends. Both
 /// polygons take the part of the eye, until they agree: a shadow between the points of one is in
 /// plain view of the other. Of all lengths only ratios matter.
-pub fn visible_exchange(occluders: &Occluders, a: Facet<'_>, b: Facet<'_>, tolerance: f64) -> f64 {
+pub fn visible_exchange(
+    occluders: &Occluders,
+    a: PlanarPolygon<'_>,
+    b: PlanarPolygon<'_>,
+    tolerance: f64,
+) -> f64 {
     if is_level(a, b, occluders.tolerance()) {
         return 0.0;
     }
     let tolerance = tolerance * area(a).min(area(b));
     let (Some(front_a), Some(front_b)) = (in_front(a, b), in_front(b, a)) else { return 0.0 };
-    let (a, b) = (Facet { corners: &front_a, ..a }, Facet { corners: &front_b, ..b });
+    let (a, b) =
+        (PlanarPolygon { corners: &front_a, ..a }, PlanarPolygon { corners: &front_b, ..b });
     let between = occluders.between(a, b);
     if between.hides_all() {
         return 0.0;
@@ -78,7 +84,7 @@ fn settled<'a>(mut sides: [Integral<'a>; 2], all: f64, tolerance: f64) -> Integr
     }
 }
 
-fn area(facet: Facet<'_>) -> f64 {
+fn area(facet: PlanarPolygon<'_>) -> f64 {
     area_vector(facet.corners).length()
 }
 
@@ -88,8 +94,8 @@ pub(super) type Seen = [f64; 2];
 /// One polygon as seen from points on another.
 #[derive(Clone, Copy)]
 pub(super) struct View<'a> {
-    pub(super) from: Facet<'a>,
-    pub(super) to: Facet<'a>,
+    pub(super) from: PlanarPolygon<'a>,
+    pub(super) to: PlanarPolygon<'a>,
     between: &'a Between,
 }
 
