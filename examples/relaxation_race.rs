@@ -84,7 +84,7 @@ fn office() -> radiosity::Result<System> {
     let surfaces = surfaces_of(&load(Path::new("scenes/office.obj"), &Default::default())?);
     let settings = Settings { patch_size: Length::Metres(PATCH), ..Settings::medium() };
     let patches = Mesh::new(&surfaces, &settings).patches;
-    let method = form_factor::Method::Hemicube(settings.hemicube_resolution);
+    let method = form_factor::FormFactorMethod::Hemicube(settings.hemicube_resolution);
     let go_on = |_| ControlFlow::Continue(());
     let factors = assemble(&patches, &Occluders::new(&surfaces), method, go_on).factors;
     let reflectance = patches.iter().map(|patch| patch.reflectance).collect();

@@ -22,7 +22,7 @@ use super::transport::{Link, Row};
 use super::{ElementLight, Observer, Phase, Stop};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
-use crate::form_factor::hemicube::{DeltaFactors, Targets, enough_cells};
+use crate::form_factor::hemicube::{DeltaFactors, HemicubeScene, enough_cells};
 use crate::mesh::{ElementId, Mesh, PatchId};
 use crate::refine::mean_radiosity;
 use crate::settings::Settings;
@@ -51,7 +51,7 @@ pub(super) struct Shooting<'a, 'o> {
     surfaces: &'a Surfaces,
     occluders: &'a Occluders,
     delta: DeltaFactors,
-    targets: Targets,
+    targets: HemicubeScene,
     /// By group.
     rows: Vec<Option<Row>>,
     kept: usize,
@@ -117,7 +117,7 @@ impl<'a, 'o> Shooting<'a, 'o> {
             surfaces,
             occluders,
             delta: DeltaFactors::new(resolution),
-            targets: Targets::new(&mesh.patches),
+            targets: HemicubeScene::new(&mesh.patches),
             rows: vec![None; groups.len()],
             groups,
             glares: glaring(mesh, &Sources::of_direct_light(mesh, light), mean_radiosity(mesh)),
