@@ -83,7 +83,7 @@ fn exact_factors_at_256_of_1k_patches<const ROOM: usize>(bencher: Bencher) {
     let mut sums = ElementSums::new(&room.map);
     let mut seen = |(eye, k): (&SurfacePoint, u32)| -> Vec<ElementId> {
         let seen = sums.of(hemicube.look(*eye, f64::from(k)));
-        seen.iter().map(|&(leaf, _)| room.map.leaves()[leaf as usize]).collect()
+        seen.iter().map(|seen| room.map.leaves()[seen.leaf as usize]).collect()
     };
     let eyes = eyes(&room.mesh);
     let views: Vec<Vec<ElementId>> = eyes.iter().zip(0..).map(&mut seen).collect();

@@ -10,7 +10,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 use radiosity::form_factor::contour::point_to_polygon;
 use radiosity::form_factor::hemicube::{
-    DeltaFactors, ElementMap, ElementSums, Hemicube, HemicubeScene, VisiblePatch,
+    DeltaFactors, ElementMap, ElementSums, Hemicube, HemicubeScene, LeafSum, VisiblePatch,
 };
 use radiosity::mesh::{ElementId, Mesh, Reason, Split};
 use radiosity::surface::Surfaces;
@@ -46,7 +46,7 @@ proptest! {
         let eye = SurfacePoint::new(DVec3::new(x, y, z), normal);
         let (fast, plain) = (fast.look(eye, turn), plain.look(eye, turn));
         prop_assert!(fast.items().eq(plain.items()));
-        let sights = |hemicube: &Hemicube<'_>| hemicube.sights().collect::<Vec<VisiblePatch>>();
+        let sights = |hemicube: &Hemicube<'_>| hemicube.visible_patches().collect::<Vec<VisiblePatch>>();
         prop_assert_eq!(sights(fast), sights(plain));
         let (mut these, mut those) = (ElementSums::new(&map), ElementSums::new(&map));
         prop_assert_eq!(these.of(fast), those.of(plain));
@@ -104,7 +104,7 @@ fn cells_go_to_the_elements_that_they_see() {
             let eye = DVec3::new(0.8, 0.9, 1.0);
             let hemicube = hemicube.look(SurfacePoint::new(eye, *normal), k as f64);
             let mut seen: BTreeMap<ElementId, f64> = BTreeMap::new();
-            for &(leaf, sum) in sums.of(hemicube) {
+            for &LeafSum { leaf, sum } in sums.of(hemicube) {
                 let before = seen.insert(map.leaves()[leaf as usize], sum.into());
                 assert_eq!(before, None, "leaf {leaf} is there twice");
             }
@@ -116,7 +116,7 @@ fn cells_go_to_the_elements_that_they_see() {
                 let cells = seen.get(&leaf).copied().unwrap_or(0.0);
                 assert!((cells - exact).abs() < 1e-3, "{cells} for {exact} of {leaf:?}");
             }
-            for sight in hemicube.sights() {
+            for sight in hemicube.visible_patches() {
                 let own = seen.iter().filter(|(leaf, _)| mesh[**leaf].patch == sight.patch);
                 let sum: f64 = own.map(|(_, sum)| sum).sum();
                 assert!((sum - sight.delta).abs() < 1e-5, "{sum} for {sight:?}");

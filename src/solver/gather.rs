@@ -228,7 +228,7 @@ impl<'a> Gatherer<'a> {
         let (mut factors, mut view) = (0, View::new());
         let is_whole = |patch: PatchId| !self.groups.holds(patch);
         let is_plain = |patch: PatchId| is_whole(patch) && !self.glares[patch.index()];
-        for sight in hemicube.sights_of(is_plain).filter(|sight| sight.front) {
+        for sight in hemicube.visible_patches_of(is_plain).filter(|sight| sight.front) {
             factors += self.receive(mesh, hemicube, (place, sight), arrive);
             if sight.delta > WIDE {
                 view.push((sight.patch, sight.delta));

@@ -61,7 +61,7 @@ impl Shot<'_, '_> {
     fn deliver(&self, row: &mut Row) {
         let Self { mesh, groups, hemicube, share, .. } = *self;
         row.escaped += hemicube.escaping() * share;
-        for sight in hemicube.sights_of(|patch| !groups.holds(patch)) {
+        for sight in hemicube.visible_patches_of(|patch| !groups.holds(patch)) {
             if sight.front {
                 self.link(sight, row);
             } else {

@@ -109,7 +109,7 @@ fn row_of_patch(transport: Transport<'_>, hemicube: &mut Hemicube<'_>, shooter: 
         }
         let share = mesh[source].area / patch.area;
         row.escaped += hemicube.escaping() * share;
-        for sight in hemicube.sights_of(|patch| !groups.holds(patch)) {
+        for sight in hemicube.visible_patches_of(|patch| !groups.holds(patch)) {
             if sight.front {
                 let VisiblePatch { patch, visible, .. } = sight;
                 Linking { mesh, surfaces, hemicube, patch, visible }.link(source, &mut row);

@@ -36,8 +36,8 @@ impl Occluders {
         self.visible_among(view, &self.all(), CROWDED, |_| false)
     }
 
-    /// As [`Self::visible_part`], with nothing in the way of `view` but `blockers`, and of these not those whose surfaces
-    /// are to be `ignored`; `None` at more than `most` pieces or shadows.
+    /// As [`Self::visible_part`] of the base of `view`, with nothing in the way but `blockers`, and of these not those
+    /// whose surfaces are to be `ignored`; `None` at more than `most` pieces or shadows.
     pub fn visible_among(
         &self,
         view: Pyramid<'_>,

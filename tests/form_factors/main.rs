@@ -110,7 +110,7 @@ fn what_a_point_sees_of_a_closed_room_adds_up_to_one() {
             continue;
         }
         let hemicube = hemicube.look(SurfacePoint::new(eye, DVec3::Y), f64::from(k));
-        let sights: Vec<VisiblePatch> = hemicube.sights().collect();
+        let sights: Vec<VisiblePatch> = hemicube.visible_patches().collect();
         let factor =
             |patch: radiosity::mesh::PatchId| point_to_polygon(eye, DVec3::Y, &mesh[patch].corners);
         let exact: f64 = sights.iter().map(|s| s.visible * factor(s.patch)).sum();
@@ -257,7 +257,7 @@ fn cells_of_a_hemicube_add_up_to_form_factors_however_it_is_turned() {
     let mut hemicube = Hemicube::new(&delta, &targets, &occluders);
     let eye = DVec3::new(1.3, 0.0, 2.2);
     for turn in [0.0, 0.3, 0.9, 1.5] {
-        for sight in hemicube.look(SurfacePoint::new(eye, DVec3::Y), turn).sights() {
+        for sight in hemicube.look(SurfacePoint::new(eye, DVec3::Y), turn).visible_patches() {
             let patch = &mesh[sight.patch];
             let exact = sight.visible * point_to_polygon(eye, DVec3::Y, &patch.corners);
             assert!((exact - sight.delta).abs() < 0.01, "{exact} for {sight:?}");

@@ -112,7 +112,7 @@ fn rays_see_what_a_hemicube_sees() {
     let mut rays = Rays::new(&sphere, &hierarchy);
     for eye in eyes().take(4) {
         let mut factors = vec![0.0; mesh.patches.len()];
-        for sight in hemicube.look(SurfacePoint::new(eye, DVec3::Y), 0.2).sights() {
+        for sight in hemicube.look(SurfacePoint::new(eye, DVec3::Y), 0.2).visible_patches() {
             factors[sight.patch.index()] = sight.delta;
         }
         for sight in rays.look(&mesh.patches, SurfacePoint::new(eye, DVec3::Y), 0.7) {
@@ -149,7 +149,7 @@ fn a_million_rays_err_a_third_of_a_plain_hemicube_at_most() {
     let (mut by_cells, mut by_rays) = (0.0, 0.0);
     for (k, eye) in eyes().take(3).enumerate() {
         let from = SurfacePoint::new(eye, DVec3::Y);
-        let cells = hemicube.look(from, k as f64).sights();
+        let cells = hemicube.look(from, k as f64).visible_patches();
         by_cells += error_in_room(&mesh, eye, cells.map(|s| (s.patch.index(), s.delta)));
         let sights = rays.look(&mesh.patches, from, k as f64).into_iter();
         by_rays += error_in_room(&mesh, eye, sights.map(|s| (s.patch.index(), s.delta)));
@@ -173,10 +173,13 @@ fn a_hemicube_of_fewer_cells_than_patches_looks_by_rays() {
     };
     for eye in eyes().take(4) {
         let mut by_rays = Hemicube::new(&delta, &fine, &occluders);
-        let seen = by_rays.look(SurfacePoint::new(eye, DVec3::Y), 0.3).sights().collect::<Vec<_>>();
+        let seen = by_rays
+            .look(SurfacePoint::new(eye, DVec3::Y), 0.3)
+            .visible_patches()
+            .collect::<Vec<_>>();
         let mut drawn = Hemicube::new(&delta, &rough, &occluders);
         let expected =
-            drawn.look(SurfacePoint::new(eye, DVec3::Y), 0.3).sights().collect::<Vec<_>>();
+            drawn.look(SurfacePoint::new(eye, DVec3::Y), 0.3).visible_patches().collect::<Vec<_>>();
         assert_eq!(by_rays.escaping(), 0.0, "at {eye}");
         assert!(seen.is_sorted_by_key(|sight| sight.patch) && seen.iter().all(|s| s.front));
         // Cells do not know how surfaces are cut into patches.

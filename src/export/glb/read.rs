@@ -16,7 +16,7 @@ use super::{LIGHT, RADIOSITY, TEXTURE_MEAN};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
 use crate::export::Stamp;
-use crate::reconstruct::{LightShare, Part, TriMesh};
+use crate::reconstruct::{LightShare, MeshPart, TriMesh};
 use crate::scene::{Texture, decode, sampler_of};
 use crate::surface::LightGroup;
 
@@ -98,7 +98,7 @@ fn append(
     let start = mesh.triangles.len();
     mesh.triangles.extend(triangles.iter().map(|corners| corners.map(|corner| offset + corner)));
     let look = material(arrays, primitive)?;
-    mesh.parts.push(Part { triangles: start..mesh.triangles.len(), object, ..look });
+    mesh.parts.push(MeshPart { triangles: start..mesh.triangles.len(), object, ..look });
     Ok(())
 }
 
@@ -144,9 +144,9 @@ fn append_vertices(mesh: &mut TriMesh, arrays: &Arrays, primitive: &Primitive) -
 }
 
 /// A part without triangles that has the name of a primitive's material, its texture and its holes.
-fn material(arrays: &Arrays, primitive: &Primitive) -> Outcome<Part> {
+fn material(arrays: &Arrays, primitive: &Primitive) -> Outcome<MeshPart> {
     let Some(index) = primitive.material else {
-        return Ok(Part::default());
+        return Ok(MeshPart::default());
     };
     let materials = &arrays.root.materials;
     let material = materials.get(index.value()).ok_or("a primitive's material is missing")?;
@@ -157,11 +157,11 @@ fn material(arrays: &Arrays, primitive: &Primitive) -> Outcome<Part> {
     }
     let is_cut_out = material.alpha_mode == Checked::Valid(AlphaMode::Mask);
     let cutoff = material.alpha_cutoff.map_or(0.5, |cutoff| f64::from(cutoff.0));
-    Ok(Part {
+    Ok(MeshPart {
         name: material.name.clone().unwrap_or_default(),
         texture: texture.map(|texture| texture as u32),
         cutoff: is_cut_out.then_some(cutoff),
-        ..Part::default()
+        ..MeshPart::default()
     })
 }
 

@@ -22,7 +22,7 @@ impl<'a> HemicubeView<'a> {
 impl PatchVisibility for HemicubeView<'_> {
     fn seen_from(&mut self, eye: SurfacePoint, turn: f64) -> Vec<SeenPatch> {
         let patches = self.patches;
-        let fronts = self.hemicube.look(eye, turn).sights().filter(|sight| sight.front);
+        let fronts = self.hemicube.look(eye, turn).visible_patches().filter(|sight| sight.front);
         let seen = fronts.map(|sight| {
             let all =
                 point_to_polygon(eye.position, eye.normal, &patches[sight.patch.index()].corners);

@@ -1,4 +1,4 @@
-//! LocalCorners in the frame of a hemicube, and what of a polygon each of its five faces sees.
+//! Corners in the frame of a hemicube, and what of a polygon each of its five faces sees.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use super::frame::Frame;
 /// A part of a convex polygon, in the coordinates of a face.
 pub(super) type ClippedPolygon = SmallVec<[Vec3; 16]>;
 
-/// LocalCorners of convex polygons in the frame of a hemicube whose eye is the origin and whose normal is +z.
+/// Corners of convex polygons in the frame of a hemicube whose eye is the origin and whose normal is +z.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LocalCorners {
     at: [Vec<f32>; 3],

@@ -30,7 +30,16 @@ pub struct ElementSums<'a> {
     batch: CellBatch,
     /// Sums of the leaves of one patch, counted from its first; zero between patches.
     sums: Vec<f32>,
-    seen: Vec<(u32, f32)>,
+    seen: Vec<LeafSum>,
+}
+
+/// A leaf that a hemicube sees.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LeafSum {
+    /// Index into [`ElementMap::leaves`].
+    pub leaf: u32,
+    /// Sum of the delta factors of the cells that see it.
+    pub sum: f32,
 }
 
 /// Cells of one face that see one patch; room for a register more than a face has.
@@ -47,7 +56,7 @@ struct CellBatch {
     shares: Vec<f32>,
 }
 
-/// The map from the cells of a face to a piece of a patch that they see, a projective one of planes.
+/// The projective map from the cells of a face to the piece of a patch that they see.
 #[derive(Clone, Copy, Debug)]
 struct Homography {
     /// The two oblique coordinates of its chart over depth, and one over depth, as coefficients of 1, the
@@ -70,9 +79,8 @@ impl<'a> ElementSums<'a> {
         Self { map, batch: CellBatch::default(), sums: vec![0.0; most], seen: Vec::new() }
     }
 
-    /// The leaves that a hemicube sees, patch by patch, by their numbers in [`ElementMap::leaves`], each
-    /// with the sum of the delta factors of its cells.
-    pub fn of(&mut self, hemicube: &Hemicube<'_>) -> &[(u32, f32)] {
+    /// The leaves that a hemicube sees, patch by patch.
+    pub fn of(&mut self, hemicube: &Hemicube<'_>) -> &[LeafSum] {
         self.batch.make_room(hemicube.buffer.resolution());
         let count = hemicube.arch.dispatch(Summing { sums: self, hemicube });
         &self.seen[..count]
@@ -120,11 +128,11 @@ impl ElementSums<'_> {
         // One more than there are: cells of leaves seen before write there as well.
         let room = count + grid.leaves.len() + 1;
         if seen.len() < room {
-            seen.resize(room, (0, 0.0));
+            seen.resize(room, LeafSum::default());
         }
         let seen = &mut seen[count..room];
         if grid.leaves.len() == 1 {
-            seen[0] = (grid.leaves.start as u32, kept);
+            seen[0] = LeafSum { leaf: grid.leaves.start as u32, sum: kept };
             return 1;
         }
         let (mut next, mut found) = (last, 0);
@@ -136,7 +144,7 @@ impl ElementSums<'_> {
             }
             found = batch.scatter(sums, seen, found);
         }
-        for (leaf, sum) in &mut seen[..found] {
+        for LeafSum { leaf, sum } in &mut seen[..found] {
             *sum = std::mem::take(&mut sums[*leaf as usize]);
             *leaf += grid.leaves.start as u32;
         }
@@ -210,12 +218,12 @@ impl CellBatch {
     /// Adds the factors of the cells to the leaves they see, and lists those seen for the first time after
     /// the `found` that were before; returns how many those are then.
     #[inline(always)]
-    fn scatter(&self, sums: &mut [f32], seen: &mut [(u32, f32)], mut found: usize) -> usize {
+    fn scatter(&self, sums: &mut [f32], seen: &mut [LeafSum], mut found: usize) -> usize {
         let count = self.count;
         let mut put = |leaf: u32, share: f32| {
             let sum = &mut sums[leaf as usize];
             // Without a branch: nobody could foretell it.
-            seen[found].0 = leaf;
+            seen[found].leaf = leaf;
             found += usize::from(sum.to_bits() == 0);
             *sum += share;
         };

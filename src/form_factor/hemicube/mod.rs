@@ -36,7 +36,7 @@ mod seen;
 pub use coverage::{PatchCoverage, VisiblePatch};
 pub use delta::DeltaFactors;
 pub use element_map::ElementMap;
-pub use elements::ElementSums;
+pub use elements::{ElementSums, LeafSum};
 pub(super) use frame::axes;
 pub(crate) use frame::turn;
 pub use look::Hemicube;

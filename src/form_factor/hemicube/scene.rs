@@ -86,7 +86,7 @@ impl HemicubeScene {
         self.hair
     }
 
-    /// LocalCorners of a patch, m.
+    /// Corners of a patch, m.
     pub(super) fn outline(&self, patch: usize) -> SmallVec<[DVec3; 8]> {
         self.corners_of(patch).map(|index| self.corner(index)).collect()
     }

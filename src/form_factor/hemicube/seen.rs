@@ -12,12 +12,12 @@ use crate::mesh::PatchId;
 
 impl Hemicube<'_> {
     /// The patches seen, in their order.
-    pub fn sights(&self) -> impl Iterator<Item = VisiblePatch> + '_ {
-        self.sights_of(|_| true)
+    pub fn visible_patches(&self) -> impl Iterator<Item = VisiblePatch> + '_ {
+        self.visible_patches_of(|_| true)
     }
 
     /// Those of the patches seen that are `wanted`, in their order.
-    pub fn sights_of(
+    pub fn visible_patches_of(
         &self,
         wanted: impl Fn(PatchId) -> bool,
     ) -> impl Iterator<Item = VisiblePatch> {
