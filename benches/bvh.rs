@@ -19,8 +19,8 @@ use obvhs::bvh2::builder::build_bvh2;
 use obvhs::ray::{Ray, RayHit};
 use radiosity::form_factor::rays::{Rays, Sphere};
 use radiosity::mesh::Mesh;
-use radiosity::visibility::PatchHierarchy;
 use radiosity::visibility::hierarchy::hierarchy;
+use radiosity::visibility::{PatchHierarchy, SurfacePoint};
 use radiosity::{Length, Settings, surfaces_of};
 
 /// Squares along each edge of a wall.
@@ -124,7 +124,7 @@ fn room(patches: usize) -> Mesh {
     Mesh::new(&surfaces, &Settings { patch_size, ..common::coarse() })
 }
 
-const EYE: (DVec3, DVec3) = (DVec3::new(2.1, 0.0, 2.3), DVec3::Y);
+const EYE: SurfacePoint = SurfacePoint { position: DVec3::new(2.1, 0.0, 2.3), normal: DVec3::Y };
 
 const PATCHES: [usize; 3] = [1_000, 10_000, 100_000];
 
@@ -135,7 +135,10 @@ fn single_rays_to_patches(bencher: Bencher<'_, '_>, patches: usize) {
     let directions: Vec<DVec3> =
         Sphere::new(4096).directions().map(|d| DVec3::new(d.y, d.z, d.x)).collect();
     bencher.counter(ItemsCount::new(directions.len())).bench(|| {
-        directions.iter().filter(|direction| hierarchy.first(EYE.0, **direction).is_some()).count()
+        directions
+            .iter()
+            .filter(|direction| hierarchy.first(EYE.position, **direction).is_some())
+            .count()
     });
 }
 

@@ -9,10 +9,12 @@ use std::sync::LazyLock;
 use divan::{Bencher, counter::ItemsCount};
 use glam::DVec3;
 use radiosity::form_factor::contour::point_to_polygon;
-use radiosity::form_factor::hemicube::{DeltaFactors, ElementMap, ElementSums, Hemicube, Targets};
+use radiosity::form_factor::hemicube::{
+    DeltaFactors, ElementMap, ElementSums, Hemicube, HemicubeScene,
+};
 use radiosity::mesh::{ElementId, Mesh, Reason};
 use radiosity::surface::Surfaces;
-use radiosity::visibility::Occluders;
+use radiosity::visibility::{Occluders, SurfacePoint};
 use radiosity::{Length, Settings, surfaces_of};
 
 #[path = "../tests/common/stage.rs"]
@@ -30,7 +32,7 @@ const RESOLUTIONS: [usize; 4] = [64, 128, 256, 512];
 struct Room {
     surfaces: Surfaces,
     mesh: Mesh,
-    targets: Targets,
+    targets: HemicubeScene,
     map: ElementMap,
     occluders: Occluders,
 }
@@ -79,15 +81,17 @@ fn exact_factors_at_256_of_1k_patches<const ROOM: usize>(bencher: Bencher) {
     let delta = DeltaFactors::new(256);
     let mut hemicube = Hemicube::new(&delta, &room.targets, &room.occluders);
     let mut sums = ElementSums::new(&room.map);
-    let mut seen = |(eye, k): (&(DVec3, DVec3), u32)| -> Vec<ElementId> {
+    let mut seen = |(eye, k): (&SurfacePoint, u32)| -> Vec<ElementId> {
         let seen = sums.of(hemicube.look(*eye, f64::from(k)));
-        seen.iter().map(|&(leaf, _)| room.map.leaves()[leaf as usize]).collect()
+        seen.iter().map(|seen| room.map.leaves()[seen.leaf as usize]).collect()
     };
     let eyes = eyes(&room.mesh);
     let views: Vec<Vec<ElementId>> = eyes.iter().zip(0..).map(&mut seen).collect();
     bencher.counter(ItemsCount::new(LOOKS)).bench_local(|| {
-        let factors = |((eye, normal), seen): (&(DVec3, DVec3), &Vec<ElementId>)| {
-            let factor = |&leaf: &ElementId| point_to_polygon(*eye, *normal, &corners(room, leaf));
+        let factors = |(eye, seen): (&SurfacePoint, &Vec<ElementId>)| {
+            let factor = |&leaf: &ElementId| {
+                point_to_polygon(eye.position, eye.normal, &corners(room, leaf))
+            };
             seen.iter().map(factor).sum::<f64>()
         };
         eyes.iter().zip(&views).map(factors).sum::<f64>()
@@ -127,12 +131,12 @@ fn room(size: f64, levels: u32) -> Room {
             mesh.split(leaf, radiosity::mesh::Split::Quarters, Reason::Uniform);
         }
     }
-    let (targets, map) = (Targets::new(&mesh.patches), ElementMap::new(&mesh));
+    let (targets, map) = (HemicubeScene::new(&mesh.patches), ElementMap::new(&mesh));
     Room { occluders: Occluders::new(&surfaces), surfaces, mesh, targets, map }
 }
 
 /// Points of patches and their normals, by area.
-fn eyes(mesh: &Mesh) -> Vec<(DVec3, DVec3)> {
+fn eyes(mesh: &Mesh) -> Vec<SurfacePoint> {
     let total: f64 = mesh.patches.iter().map(|patch| patch.area).sum();
     let share = |k: usize, step: f64| ((k + 1) as f64 * step).fract();
     let eye = |k: usize| {
@@ -143,7 +147,8 @@ fn eyes(mesh: &Mesh) -> Vec<(DVec3, DVec3)> {
         });
         let patch = patch.unwrap_or(&mesh.patches[0]);
         let [a, b, c] = [0, 1, 2].map(|corner| patch.corners[corner]);
-        (a.lerp(b, share(k, 0.754_878)).lerp(c, 0.9 * share(k, 0.569_84)), patch.normal)
+        let at = a.lerp(b, share(k, 0.754_878)).lerp(c, 0.9 * share(k, 0.569_84));
+        SurfacePoint::new(at, patch.normal)
     };
     (0..LOOKS).map(eye).collect()
 }

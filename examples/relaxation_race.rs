@@ -86,7 +86,7 @@ fn office() -> radiosity::Result<System> {
     let settings = Settings { patch_size: Length::Metres(PATCH), ..Settings::medium() };
     let mesh = Mesh::new(&surfaces, &settings);
     let Optics { reflectance, exitance } = Optics::new(&surfaces, &mesh);
-    let method = form_factor::Method::Hemicube(settings.hemicube_resolution);
+    let method = form_factor::FormFactorMethod::Hemicube(settings.hemicube_resolution);
     let go_on = |_| ControlFlow::Continue(());
     let factors = assemble(&mesh.patches, &Occluders::new(&surfaces), method, go_on).factors;
     System::new(factors, reflectance, exitance)

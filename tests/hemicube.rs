@@ -10,11 +10,11 @@ use glam::DVec3;
 use proptest::prelude::*;
 use radiosity::form_factor::contour::point_to_polygon;
 use radiosity::form_factor::hemicube::{
-    DeltaFactors, ElementMap, ElementSums, Hemicube, Sight, Targets,
+    DeltaFactors, ElementMap, ElementSums, Hemicube, HemicubeScene, LeafSum, VisiblePatch,
 };
 use radiosity::mesh::{ElementId, Mesh, Reason, Split};
 use radiosity::surface::Surfaces;
-use radiosity::visibility::Occluders;
+use radiosity::visibility::{Occluders, SurfacePoint};
 use radiosity::{Length, Settings, surfaces_of};
 
 fn block() -> impl Strategy<Value = Block> {
@@ -37,15 +37,16 @@ proptest! {
         let surfaces = surfaces_of(&furnished_room(&blocks));
         let mut mesh = Mesh::new(&surfaces, &coarse());
         divide(&mut mesh, 2);
-        let (targets, map) = (Targets::new(&mesh.patches), ElementMap::new(&mesh));
+        let (targets, map) = (HemicubeScene::new(&mesh.patches), ElementMap::new(&mesh));
         let occluders = Occluders::new(&surfaces);
         let delta = DeltaFactors::new(2 * resolution);
         let mut fast = Hemicube::new(&delta, &targets, &occluders);
         let mut plain = fast.clone().portable();
-        let eye = (DVec3::new(x, y, z), DVec3::from(normal).normalize_or(DVec3::Y));
+        let normal = DVec3::from(normal).normalize_or(DVec3::Y);
+        let eye = SurfacePoint::new(DVec3::new(x, y, z), normal);
         let (fast, plain) = (fast.look(eye, turn), plain.look(eye, turn));
         prop_assert!(fast.items().eq(plain.items()));
-        let sights = |hemicube: &Hemicube<'_>| hemicube.sights().collect::<Vec<Sight>>();
+        let sights = |hemicube: &Hemicube<'_>| hemicube.visible_patches().collect::<Vec<VisiblePatch>>();
         prop_assert_eq!(sights(fast), sights(plain));
         let (mut these, mut those) = (ElementSums::new(&map), ElementSums::new(&map));
         prop_assert_eq!(these.of(fast), those.of(plain));
@@ -93,7 +94,7 @@ fn cells_go_to_the_elements_that_they_see() {
         let surfaces = prism(floor);
         let mut mesh = Mesh::new(&surfaces, &whole);
         divide(&mut mesh, 4);
-        let (targets, map) = (Targets::new(&mesh.patches), ElementMap::new(&mesh));
+        let (targets, map) = (HemicubeScene::new(&mesh.patches), ElementMap::new(&mesh));
         let occluders = Occluders::new(&surfaces);
         let mut hemicube = Hemicube::new(&delta, &targets, &occluders);
         let mut sums = ElementSums::new(&map);
@@ -101,9 +102,9 @@ fn cells_go_to_the_elements_that_they_see() {
             [DVec3::Y, DVec3::X, DVec3::NEG_Y, DVec3::ONE.normalize()].iter().enumerate()
         {
             let eye = DVec3::new(0.8, 0.9, 1.0);
-            let hemicube = hemicube.look((eye, *normal), k as f64);
+            let hemicube = hemicube.look(SurfacePoint::new(eye, *normal), k as f64);
             let mut seen: BTreeMap<ElementId, f64> = BTreeMap::new();
-            for &(leaf, sum) in sums.of(hemicube) {
+            for &LeafSum { leaf, sum } in sums.of(hemicube) {
                 let before = seen.insert(map.leaves()[leaf as usize], sum.into());
                 assert_eq!(before, None, "leaf {leaf} is there twice");
             }
@@ -115,7 +116,7 @@ fn cells_go_to_the_elements_that_they_see() {
                 let cells = seen.get(&leaf).copied().unwrap_or(0.0);
                 assert!((cells - exact).abs() < 1e-3, "{cells} for {exact} of {leaf:?}");
             }
-            for sight in hemicube.sights() {
+            for sight in hemicube.visible_patches() {
                 let own = seen.iter().filter(|(leaf, _)| mesh[**leaf].patch == sight.patch);
                 let sum: f64 = own.map(|(_, sum)| sum).sum();
                 assert!((sum - sight.delta).abs() < 1e-5, "{sum} for {sight:?}");

@@ -10,7 +10,7 @@ use radiosity::colour::Rgb;
 use radiosity::page::{
     self, Cell, Fact, Markup, Model, Step, Table, Viewer, WipePicture, columns, facts, html,
 };
-use radiosity::reconstruct::Part;
+use radiosity::reconstruct::MeshPart;
 use radiosity::scene::{Camera, Sampler, Texture, Wrap};
 use serde_json::{Value, json};
 
@@ -262,7 +262,8 @@ fn pictured(sampler: Sampler, side: u32) -> TriMesh {
         ..Texture::default()
     };
     mesh.textures = vec![Texture::default(), texture];
-    let on = |triangles, texture, cutoff| Part { triangles, texture, cutoff, ..Part::default() };
+    let on =
+        |triangles, texture, cutoff| MeshPart { triangles, texture, cutoff, ..MeshPart::default() };
     mesh.parts = vec![
         on(0..2, None, None),
         on(2..3, Some(1), Some(0.25)),
@@ -338,7 +339,7 @@ fn a_page_without_pictures_on_surfaces_carries_nothing_for_them() {
     }
     // What has no texels, or no coordinates, is no picture.
     let triangles = 0..mesh.triangles.len();
-    mesh.parts.push(Part { triangles, texture: Some(0), ..Part::default() });
+    mesh.parts.push(MeshPart { triangles, texture: Some(0), ..MeshPart::default() });
     mesh.textures.push(Texture::default());
     assert_eq!(viewer(&[step("", Model::of_mesh(&mesh))], "").into_string(), plain);
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use radiosity::export::{FactorPatch, FactorTable, check_writable_factors, save_factors};
 use radiosity::form_factor::{self, Assembled, assemble, factors_at};
 use radiosity::mesh::Mesh;
-use radiosity::visibility::Occluders;
+use radiosity::visibility::{Occluders, SurfacePoint};
 use radiosity::{Error, Length, Settings, Surfaces, faces_of};
 use serde::Serialize;
 
@@ -122,7 +122,9 @@ impl FormFactorsCommand {
             meter.advance("form factors", done);
             interrupt.flow()
         });
-        let at = self.at.map(|place| factors_at(&mesh.patches, &occluders, method, place));
+        let at = self.at.map(|(position, normal)| {
+            factors_at(&mesh.patches, &occluders, method, SurfacePoint::new(position, normal))
+        });
 
         let whole = Whole::new(&surfaces, &mesh, &settings);
         let enclosure = Enclosure::new(whole.assembled(assembled), &whole.patches);
@@ -161,7 +163,7 @@ impl FormFactorsCommand {
         Ok(settings)
     }
 
-    fn method(&self) -> Result<form_factor::Method, Error> {
+    fn method(&self) -> Result<form_factor::FormFactorMethod, Error> {
         let refused = |name, message: String| Err(Error::Setting { name, message });
         if self.rays.is_some() && !matches!(self.method, AssemblyMethod::Rays) {
             return refused("rays", "are those of --method rays; say that, too".to_owned());
@@ -180,9 +182,9 @@ impl FormFactorsCommand {
             return refused("at", message);
         }
         Ok(match self.method {
-            AssemblyMethod::Hemicube => form_factor::Method::Hemicube(self.cells()),
-            AssemblyMethod::Contour => form_factor::Method::Contour,
-            AssemblyMethod::Rays => form_factor::Method::Rays(rays),
+            AssemblyMethod::Hemicube => form_factor::FormFactorMethod::Hemicube(self.cells()),
+            AssemblyMethod::Contour => form_factor::FormFactorMethod::Contour,
+            AssemblyMethod::Rays => form_factor::FormFactorMethod::Rays(rays),
         })
     }
 

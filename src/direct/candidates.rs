@@ -12,7 +12,7 @@ use obvhs::bvh2::Bvh2;
 use super::{Lamp, Lamps};
 use crate::mesh::{Mesh, Patch, PatchId};
 use crate::visibility::hierarchy::hierarchy;
-use crate::visibility::{Blockers, Body, Facet, Occluders};
+use crate::visibility::{Blockers, ConvexBody, Occluders, PlanarPolygon};
 use crate::watch::in_batches;
 
 /// Patches longer than this share of the longest are regions of their own.
@@ -151,7 +151,7 @@ impl Finder<'_> {
 
     /// The candidates of a patch by itself, exact but for what is behind its borders.
     fn of_patch(&self, around: &[Candidate], patch: &Patch) -> Vec<Candidate> {
-        let receiver = Facet::new(&patch.corners, patch.normal);
+        let receiver = PlanarPolygon::new(&patch.corners, patch.normal);
         of_polygon((self.lamps, self.occluders), around.iter(), receiver, 0.0)
     }
 
@@ -160,10 +160,11 @@ impl Finder<'_> {
         let (low, high) = self.bounds(patches);
         let reaching = around.iter().filter(|candidate| {
             let lamp = &self.lamps.list[candidate.lamp as usize];
-            let reaches = |patch: &Patch| lamp.may_reach(Facet::new(&patch.corners, patch.normal));
+            let reaches =
+                |patch: &Patch| lamp.may_reach(PlanarPolygon::new(&patch.corners, patch.normal));
             patches.iter().any(|&patch| reaches(&self.mesh[patch]))
         });
-        let body = Body::cuboid(low, high);
+        let body = ConvexBody::cuboid(low, high);
         unhidden((self.lamps, self.occluders), reaching, &body, |lamp, _| lamp.body())
     }
 
@@ -188,11 +189,11 @@ impl Finder<'_> {
 pub(super) fn of_polygon<'c>(
     (lamps, occluders): (&Lamps, &Occluders),
     around: impl Iterator<Item = &'c Candidate>,
-    receiver: Facet<'_>,
+    receiver: PlanarPolygon<'_>,
     least: f64,
 ) -> Vec<Candidate> {
     let reaches = |candidate: &&Candidate| lamps.list[candidate.lamp as usize].may_reach(receiver);
-    let (reaching, body) = (around.filter(reaches), Body::polygon(receiver));
+    let (reaching, body) = (around.filter(reaches), ConvexBody::polygon(receiver));
     let source = |lamp: &Lamp, most: f64| {
         if most < least { None } else { lamp.body_above(receiver) }
     };
@@ -203,8 +204,8 @@ pub(super) fn of_polygon<'c>(
 fn unhidden<'c>(
     (lamps, occluders): (&Lamps, &Occluders),
     candidates: impl Iterator<Item = &'c Candidate>,
-    receiver: &Body,
-    source: impl Fn(&Lamp, f64) -> Option<Body>,
+    receiver: &ConvexBody,
+    source: impl Fn(&Lamp, f64) -> Option<ConvexBody>,
 ) -> Vec<Candidate> {
     let narrowed = |Candidate { lamp: number, blockers, .. }: &Candidate| {
         let lamp = &lamps.list[*number as usize];
@@ -212,7 +213,7 @@ fn unhidden<'c>(
         let source = if blockers.is_clear() { None } else { source(lamp, most) };
         let ignored = |surface| lamp.is_part(surface);
         let blockers = match source {
-            Some(source) => occluders.narrowed(blockers, (&source, receiver), ignored),
+            Some(source) => occluders.narrowed(blockers, &source, receiver, ignored),
             None => blockers.clone(),
         };
         (blockers != Blockers::Opaque).then_some(Candidate { lamp: *number, blockers, most })

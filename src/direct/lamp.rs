@@ -9,7 +9,7 @@ use super::globe::Globe;
 use super::view::{FAR, Receiver, View};
 use crate::colour::Rgb;
 use crate::scene::{Light, area_vector};
-use crate::visibility::{Body, Facet, HalfSpace, Polygon};
+use crate::visibility::{ConvexBody, HalfSpace, PlanarPolygon, Polygon};
 
 /// An emitter.
 #[derive(Clone, Debug)]
@@ -32,22 +32,23 @@ pub(super) struct AreaLamp {
 
 impl Lamp {
     /// Where it is, if it is somewhere.
-    pub(super) fn body(&self) -> Option<Body> {
+    pub(super) fn body(&self) -> Option<ConvexBody> {
         match self {
-            Self::Area(lamp) => {
-                Some(Body::polygon(Facet { corners: &lamp.corners, plane: lamp.front }))
-            }
-            Self::Globe(globe) => Some(Body::cuboid(globe.low, globe.high)),
-            Self::Point(light) => light.position().map(Body::point),
+            Self::Area(lamp) => Some(ConvexBody::polygon(PlanarPolygon {
+                corners: &lamp.corners,
+                plane: lamp.front,
+            })),
+            Self::Globe(globe) => Some(ConvexBody::cuboid(globe.low, globe.high)),
+            Self::Point(light) => light.position().map(ConvexBody::point),
         }
     }
 
     /// The part of it that some place on a receiver may see, if it is somewhere.
-    pub(super) fn body_above(&self, receiver: Facet<'_>) -> Option<Body> {
+    pub(super) fn body_above(&self, receiver: PlanarPolygon<'_>) -> Option<ConvexBody> {
         match self {
             Self::Area(lamp) => {
                 let above = lamp.above(receiver)?;
-                Some(Body::polygon(Facet { corners: &above, plane: lamp.front }))
+                Some(ConvexBody::polygon(PlanarPolygon { corners: &above, plane: lamp.front }))
             }
             other => other.body(),
         }
@@ -59,7 +60,7 @@ impl Lamp {
     /// [Smits, Arvo and Greenberg 1994]; of lights without a surface and of skies, no bound is known.
     ///
     /// [Smits, Arvo and Greenberg 1994]: https://doi.org/10.1145/192161.192277
-    pub(super) fn most_on(&self, receiver: &Body) -> f64 {
+    pub(super) fn most_on(&self, receiver: &ConvexBody) -> f64 {
         let (exitance, area) = match self {
             Self::Area(lamp) if !lamp.profile.is_sky() => {
                 (lamp.exitance, area_vector(&lamp.corners).length())
@@ -72,7 +73,7 @@ impl Lamp {
         let Some(source) = self.body() else { return f64::INFINITY };
         let [(low, high), (lowest, highest)] = [receiver.bounds(), source.bounds()];
         let distance = (lowest - high).max(low - highest).max(DVec3::ZERO).length();
-        let cosine = |front: Option<HalfSpace>, body: &Body| {
+        let cosine = |front: Option<HalfSpace>, body: &ConvexBody| {
             let height = |plane: HalfSpace| {
                 body.corners().iter().map(|&corner| plane.depth(corner)).fold(0.0, f64::max)
             };
@@ -100,7 +101,7 @@ impl Lamp {
     }
 
     /// False only if no place on the receiver is lit, whatever stands between.
-    pub(super) fn may_reach(&self, receiver: Facet<'_>) -> bool {
+    pub(super) fn may_reach(&self, receiver: PlanarPolygon<'_>) -> bool {
         let is_above = |p: DVec3| receiver.plane.depth(p) >= 0.0;
         match self {
             Self::Area(lamp) => {
@@ -148,7 +149,7 @@ impl AreaLamp {
     }
 
     /// The part that some place on a receiver may see, if there is one.
-    pub(super) fn above(&self, receiver: Facet<'_>) -> Option<Polygon> {
+    pub(super) fn above(&self, receiver: PlanarPolygon<'_>) -> Option<Polygon> {
         let faces = receiver.corners.iter().any(|&corner| self.front.depth(corner) > 0.0);
         let above = self.above_plane(receiver.plane);
         (faces && !above.is_empty()).then_some(above)

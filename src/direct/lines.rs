@@ -16,7 +16,7 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::lamp::AreaLamp;
-use crate::visibility::{Facet, HalfSpace, Occluders};
+use crate::visibility::{HalfSpace, Occluders, PlanarPolygon};
 
 /// An edge as high over the receiver as this share of the lamp's corner throws no shadow worth a line:
 /// it would be very far away.
@@ -42,7 +42,7 @@ pub(super) struct Shining<'a> {
     pub(super) lamp: &'a AreaLamp,
     /// The part of it above the receiver.
     pub(super) above: &'a [DVec3],
-    pub(super) receiver: Facet<'a>,
+    pub(super) receiver: PlanarPolygon<'a>,
     /// Most irradiance by it, W/m².
     pub(super) most: f64,
     /// Lines that may lose less than this, W/m² of irradiance, are left out.
@@ -64,7 +64,7 @@ impl Shining<'_> {
     /// The lines that one occluder makes.
     fn lines_by(&self, occluders: &Occluders, occluder: u32, lines: &mut Vec<Line>) {
         let receiver = self.receiver.plane;
-        let between = self.lamp.front.clip(&receiver.clip(occluders.facet(occluder).corners));
+        let between = self.lamp.front.clip(&receiver.clip(occluders.polygon(occluder).corners));
         let n = between.len();
         for (k, &from) in between.iter().enumerate() {
             let edge = [from, between[(k + 1) % n]];

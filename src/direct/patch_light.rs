@@ -14,7 +14,7 @@ use crate::colour::Rgb;
 use crate::light::Direct;
 use crate::mesh::{Mesh, PatchId};
 use crate::scene::boxes::{self, Aabb};
-use crate::visibility::{Blockers, Body, CROWDED, Facet, Occluders};
+use crate::visibility::{Blockers, CROWDED, ConvexBody, Occluders, PlanarPolygon};
 
 /// Lamps that can send no more than this share of a tolerated error anywhere on a patch are looked at together there, by
 /// what their middles send.
@@ -158,7 +158,7 @@ impl PatchLight {
     /// any of lamps that more stands before than is cut out of them: what crowds throw has no borders to speak of.
     pub fn lines(&self, mesh: &Mesh, patch: PatchId, least: f64) -> Vec<Line> {
         let corners = &mesh[patch].corners;
-        let receiver = Facet::new(corners, self.normals[patch.index()]);
+        let receiver = PlanarPolygon::new(corners, self.normals[patch.index()]);
         let mut lines = Vec::new();
         let candidates = self.candidates.of(patch).iter();
         for Candidate { lamp: number, blockers, .. } in candidates.filter(|c| c.most > least) {
@@ -171,9 +171,9 @@ impl PatchLight {
             if most <= least {
                 continue;
             }
-            let body = Body::polygon(Facet { corners: &above, plane: lamp.front });
-            let bodies = (&body, &Body::polygon(receiver));
-            let between = self.occluders.numbers_in(blockers, bodies, CROWDED + 1);
+            let body = ConvexBody::polygon(PlanarPolygon { corners: &above, plane: lamp.front });
+            let beneath = ConvexBody::polygon(receiver);
+            let between = self.occluders.numbers_in(blockers, &body, &beneath, CROWDED + 1);
             if between.len() > CROWDED {
                 continue;
             }
@@ -216,7 +216,7 @@ impl<'a> Outlook<'a> {
         if self.candidates().filter(is_strong).all(|strong| strong.blockers.are_few(LISTED)) {
             return self.clone();
         }
-        let receiver = Facet::new(corners, light.normals[self.patch.index()]);
+        let receiver = PlanarPolygon::new(corners, light.normals[self.patch.index()]);
         let scene = (&light.lamps, &light.occluders);
         let own = match &self.own {
             Some(own) => candidates::of_polygon(scene, own.iter(), receiver, self.faint),
@@ -286,7 +286,7 @@ impl Tolerated {
 }
 
 /// The most irradiance by a lamp at the corners and in the middle of a receiver, W/m²; any, if it has no surface.
-fn most_by(lamp: &Lamp, receiver: Facet<'_>) -> f64 {
+fn most_by(lamp: &Lamp, receiver: PlanarPolygon<'_>) -> f64 {
     if matches!(lamp, Lamp::Point(_)) {
         return f64::INFINITY;
     }

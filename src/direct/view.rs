@@ -7,7 +7,7 @@ use super::sampling::Sampling;
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
 use crate::light::Direct;
-use crate::visibility::{Blockers, Facet, Occluders, Polygon};
+use crate::visibility::{Blockers, Occluders, PlanarPolygon, Polygon, Pyramid};
 
 /// Polygons of a smaller area than this share of the squared distance are taken for points.
 pub(super) const FAR: f64 = 0.01;
@@ -67,9 +67,10 @@ impl View<'_> {
         if blockers.is_clear() {
             return Some(self.all());
         }
-        let source = Facet::new(&self.polygon, self.normal);
+        let base = PlanarPolygon::new(&self.polygon, self.normal);
+        let view = Pyramid { apex: self.receiver.0, base };
         let is_own = |surface| self.is_own(surface);
-        let pieces = occluders.visible_among((blockers, most), self.receiver.0, source, is_own)?;
+        let pieces = occluders.visible_among(view, blockers, most, is_own)?;
         let weight = pieces.iter().map(|piece| self.profile.weight(self.receiver, piece)).sum();
         Some(Seen { weight, rays: 0 })
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::reconstruct::{Part, TriMesh};
+use crate::reconstruct::{MeshPart, TriMesh};
 
 /// What tells materials from each other: name, texture, and the bits of the cutoff.
 pub(crate) type MaterialKey<'a> = (&'a str, Option<u32>, Option<u64>);
@@ -24,8 +24,8 @@ pub(crate) struct Group<'a> {
 }
 
 impl<'a> Group<'a> {
-    fn new(part: &'a Part) -> Self {
-        let Part { name, texture, cutoff, object, .. } = part;
+    fn new(part: &'a MeshPart) -> Self {
+        let MeshPart { name, texture, cutoff, object, .. } = part;
         let (vertices, triangles) = (Vec::new(), Vec::new());
         Self { name, texture: *texture, cutoff: *cutoff, object: *object, vertices, triangles }
     }

@@ -7,5 +7,5 @@ mod matrix;
 pub mod pair;
 pub mod rays;
 
-pub use assembly::{Assembled, Method, assemble, factors_at};
+pub use assembly::{Assembled, FormFactorMethod, assemble, factors_at};
 pub use matrix::FormFactors;

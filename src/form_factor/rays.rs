@@ -19,10 +19,10 @@ use std::f64::consts::PI;
 
 use glam::{DMat3, DVec3};
 
-use super::hemicube::frame;
+use super::hemicube::axes;
 use crate::mesh::{Patch, PatchId};
-use crate::visibility::PatchHierarchy;
 use crate::visibility::packet::{NOTHING, Packet, RAYS};
+use crate::visibility::{PatchHierarchy, SurfacePoint};
 
 /// Packets cast in one go: few enough to stay near the processor.
 const BATCH: usize = 64;
@@ -48,7 +48,7 @@ pub struct Rays<'a> {
 
 /// A patch that rays met.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sight {
+pub struct SampledPatch {
     /// The patch.
     pub patch: PatchId,
     /// Share of the rays that met it: the form factor from the point to what it sees of the patch.
@@ -108,22 +108,17 @@ impl<'a> Rays<'a> {
         Self { sphere, hierarchy, batch, counts, met, escaping: 0 }
     }
 
-    /// Looks at `patches`, those of the hierarchy, from `eye` along the unit `normal`, turned about it
-    /// by `turn` radians.
+    /// Looks at `patches`, those of the hierarchy, from `point` along its normal, turned about it by `turn`
+    /// radians.
     ///
-    /// The sights come in the patches' order.
-    pub fn look(
-        &mut self,
-        patches: &[Patch],
-        (eye, normal): (DVec3, DVec3),
-        turn: f64,
-    ) -> Vec<Sight> {
-        let frame = frame(normal, turn);
+    /// What is seen comes in the patches' order.
+    pub fn look(&mut self, patches: &[Patch], point: SurfacePoint, turn: f64) -> Vec<SampledPatch> {
+        let (eye, axes) = (point.position, axes(point.normal, turn));
         self.counts.resize(patches.len(), 0);
         self.escaping = 0;
         for packets in self.sphere.packets.chunks(BATCH) {
             self.batch.clear();
-            self.batch.extend(packets.iter().map(|directions| turned(&frame, directions)));
+            self.batch.extend(packets.iter().map(|directions| turned(&axes, directions)));
             self.hierarchy.cast(eye, &mut self.batch);
             for patch in self.batch.iter().flat_map(|packet| packet.patch) {
                 if patch == NOTHING {
@@ -139,13 +134,13 @@ impl<'a> Rays<'a> {
         }
         self.met.sort_unstable();
         let (counts, delta) = (&mut self.counts, self.sphere.delta());
-        let sight = |index: u32| {
+        let sampled = |index: u32| {
             let patch = &patches[index as usize];
             let count = std::mem::take(&mut counts[index as usize]);
             let front = (eye - patch.corners[0]).dot(patch.normal) > 0.0;
-            Sight { patch: PatchId(index), delta: f64::from(count) * delta, front }
+            SampledPatch { patch: PatchId(index), delta: f64::from(count) * delta, front }
         };
-        self.met.drain(..).map(sight).collect()
+        self.met.drain(..).map(sampled).collect()
     }
 
     /// Delta form factor of each ray.
@@ -159,9 +154,9 @@ impl<'a> Rays<'a> {
     }
 }
 
-/// A packet in space from directions in the axes that are the rows of `frame`.
-fn turned(frame: &DMat3, [x, y, z]: &[[f32; RAYS]; 3]) -> Packet {
-    let [to_x, to_y, to_z] = frame.to_cols_array_2d().map(|column| column.map(|c| c as f32));
+/// A packet in space from directions about axes that are rows.
+fn turned(axes: &DMat3, [x, y, z]: &[[f32; RAYS]; 3]) -> Packet {
+    let [to_x, to_y, to_z] = axes.to_cols_array_2d().map(|column| column.map(|c| c as f32));
     let turned = |[a, b, c]: [f32; 3]| std::array::from_fn(|k| a * x[k] + b * y[k] + c * z[k]);
     Packet::new([turned(to_x), turned(to_y), turned(to_z)])
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use super::TriMesh;
+use super::trimesh::TriMesh;
 
 /// Width of a bin of the histogram, degrees.
 const BIN: f64 = 5.0;

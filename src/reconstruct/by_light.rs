@@ -1,18 +1,10 @@
 //! A mesh that keeps the light of each group of lights apart, so that they can be dimmed.
 
-use super::{Lamps, TriMesh, reconstruct_for};
+use super::assemble::{LampStrength, reconstruct_for};
+use super::trimesh::{LightShare, TriMesh};
 use crate::colour::Rgb;
 use crate::solver::Solution;
 use crate::surface::{LightGroup, Surfaces};
-
-/// The light of one group of lights.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LightShare {
-    /// The lights, and how strong they are.
-    pub group: LightGroup,
-    /// Radiosity at a strength of 1, W/m², one per vertex of the mesh.
-    pub radiosity: Vec<Rgb>,
-}
 
 /// The triangle mesh of a solution that is the sum of `parts`, each with its group and with the surfaces lit by that
 /// alone; the mesh can be [relit](TriMesh::relight).
@@ -21,9 +13,9 @@ pub fn reconstruct_by_light(
     solution: &Solution,
     parts: impl IntoIterator<Item = (LightGroup, Surfaces, Solution)>,
 ) -> TriMesh {
-    let mut mesh = reconstruct_for(Lamps::Dimmable, surfaces, solution);
+    let mut mesh = reconstruct_for(LampStrength::Dimmable, surfaces, solution);
     let share = |(group, surfaces, part): (LightGroup, Surfaces, Solution)| {
-        let radiosity = reconstruct_for(Lamps::Dimmable, &surfaces, &part).radiosity;
+        let radiosity = reconstruct_for(LampStrength::Dimmable, &surfaces, &part).radiosity;
         LightShare { group, radiosity }
     };
     mesh.lights = parts.into_iter().map(share).collect();

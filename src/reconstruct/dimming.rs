@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
-use super::TriMesh;
+use super::trimesh::TriMesh;
 use crate::colour::{LUMENS_PER_WATT, Rgb};
 use crate::error::{Error, Result};
 use crate::scene::named;

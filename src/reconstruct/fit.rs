@@ -16,9 +16,18 @@ use crate::mesh::{ElementId, Mesh, Middle, VertexId};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Curvature([Rgb; 3]);
 
+/// What a corner of a triangle has a share in.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HatShare {
+    /// Integral of what interpolation lacks times the corner's hat function, W.
+    lack: Rgb,
+    /// Integral of the hat function, m².
+    mass: f64,
+}
+
 /// Sums over the triangles around a vertex.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Fit {
+pub(super) struct HatFit {
     /// Integral of what interpolation lacks times the vertex's hat function, W.
     lack: Rgb,
     /// Integral of the hat function, m².
@@ -27,7 +36,7 @@ pub(super) struct Fit {
     range: [Rgb; 2],
 }
 
-impl Default for Fit {
+impl Default for HatFit {
     fn default() -> Self {
         Self { lack: Rgb::ZERO, mass: 0.0, range: [Rgb::INFINITY, Rgb::NEG_INFINITY] }
     }
@@ -35,12 +44,12 @@ impl Default for Fit {
 
 /// Light known on a leaf.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Known {
+pub(super) struct LeafLight {
     curvature: Curvature,
     pub(super) range: [Rgb; 2],
 }
 
-impl Known {
+impl LeafLight {
     /// Of a leaf with light at its corners and in its middle, by least squares.
     pub(super) fn new(
         mesh: &Mesh,
@@ -69,13 +78,15 @@ impl Known {
         is_known.then_some(Self { curvature: Curvature(curvature), range })
     }
 
-    /// What each corner of a triangle has a share in: the integral of what interpolation lacks times the
-    /// corner's hat function, W, and that of the hat function, m².
-    pub(super) fn shares(&self, [a, b, c]: [DVec2; 3]) -> [(Rgb, f64); 3] {
+    /// What each corner of a triangle has a share in.
+    pub(super) fn shares(&self, [a, b, c]: [DVec2; 3]) -> [HatShare; 3] {
         let area = (b - a).perp_dot(c - a) / 2.0;
         let lacks = [c - b, a - c, b - a].map(|edge| self.lack(edge));
         let all: Rgb = lacks.iter().sum();
-        lacks.map(|opposite| ((all * 2.0 - opposite) * (area / 15.0), area / 3.0))
+        lacks.map(|opposite| HatShare {
+            lack: (all * 2.0 - opposite) * (area / 15.0),
+            mass: area / 3.0,
+        })
     }
 
     /// What interpolation between the ends of an edge lacks in its middle, W/m².
@@ -85,11 +96,11 @@ impl Known {
     }
 }
 
-impl Fit {
+impl HatFit {
     /// Adds a triangle around the vertex, of a leaf with this range of light.
-    pub(super) fn add(&mut self, (lack, mass): (Rgb, f64), [least, most]: [Rgb; 2]) {
-        self.lack += lack;
-        self.mass += mass;
+    pub(super) fn add(&mut self, share: HatShare, [least, most]: [Rgb; 2]) {
+        self.lack += share.lack;
+        self.mass += share.mass;
         self.range = [self.range[0].min(least), self.range[1].max(most)];
     }
 

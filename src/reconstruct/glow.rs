@@ -8,7 +8,7 @@
 
 use glam::Vec2;
 
-use super::sheet::{Corner, Sheet};
+use super::surface_triangles::{LitCorner, SurfaceTriangles};
 use crate::colour::Rgb;
 use crate::scene::{Material, Scene, Texture};
 use crate::surface::{Surface, Surfaces};
@@ -42,7 +42,7 @@ impl<'a> Glow<'a> {
     pub(super) fn of_material(
         surfaces: &'a Surfaces,
         number: u32,
-        sheets: &[Sheet],
+        all: &[SurfaceTriangles],
     ) -> Option<Self> {
         let material = &surfaces.materials[number as usize];
         let [colour, emission] = [material.texture, material.emission_texture].map(|texture| {
@@ -52,9 +52,9 @@ impl<'a> Glow<'a> {
         colour.or(emission)?;
         let is_lamp = |surface: &&Surface| surface.material == number && surface.is_emitter();
         let exitance = surfaces.list.iter().find(is_lamp)?.exitance;
-        let own = sheets.iter().filter(|sheet| sheet.material == number);
+        let own = all.iter().filter(|triangles| triangles.material == number);
         let (mut sum, mut means) = (Rgb::ZERO, Rgb::ZERO);
-        for corner in own.flat_map(|sheet| &sheet.corners) {
+        for corner in own.flat_map(|triangles| &triangles.corners) {
             sum += corner.radiosity - corner.emitted;
             means += corner.texture_mean;
         }
@@ -73,7 +73,7 @@ impl<'a> Glow<'a> {
     }
 
     /// Mean of the picture around a corner.
-    pub(super) fn mean(&self, corner: &Corner) -> Rgb {
+    pub(super) fn mean(&self, corner: &LitCorner) -> Rgb {
         (corner.emitted + self.reflected * corner.texture_mean) / self.white
     }
 

@@ -10,12 +10,12 @@ use spade::{
 
 /// A corner of the triangulation.
 #[derive(Clone, Copy, Debug)]
-struct Node {
+struct DelaunayVertex {
     position: Point2<f64>,
     place: u32,
 }
 
-impl HasPosition for Node {
+impl HasPosition for DelaunayVertex {
     type Scalar = f64;
 
     fn position(&self) -> Point2<f64> {
@@ -25,7 +25,7 @@ impl HasPosition for Node {
 
 /// A triangle between three places, and the leaf it is part of.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Tile {
+pub(crate) struct LeafTriangle {
     pub(crate) corners: [u32; 3],
     /// Index into the loops it was made from.
     pub(crate) leaf: usize,
@@ -34,16 +34,19 @@ pub(crate) struct Tile {
 /// Triangulates leaves given as loops of places, counter-clockwise, hanging nodes included.
 ///
 /// Loops that share an edge must share all places on it. `at` gives a place's coordinates.
-pub(crate) fn triangulate(loops: &[Vec<u32>], at: impl Fn(u32) -> DVec2) -> Vec<Tile> {
+pub(crate) fn triangulate(loops: &[Vec<u32>], at: impl Fn(u32) -> DVec2) -> Vec<LeafTriangle> {
     let mut numbers: HashMap<u32, usize> = HashMap::new();
-    let mut nodes: Vec<Node> = Vec::new();
+    let mut nodes: Vec<DelaunayVertex> = Vec::new();
     let mut edges: Vec<[usize; 2]> = Vec::new();
     let mut owners: HashMap<[u32; 2], usize> = HashMap::new();
     for (leaf, places) in loops.iter().enumerate() {
         let mut number = |place: u32| {
             *numbers.entry(place).or_insert_with(|| {
                 let DVec2 { x, y } = at(place);
-                nodes.push(Node { position: mitigate_underflow(Point2::new(x, y)), place });
+                nodes.push(DelaunayVertex {
+                    position: mitigate_underflow(Point2::new(x, y)),
+                    place,
+                });
                 nodes.len() - 1
             })
         };
@@ -62,9 +65,9 @@ pub(crate) fn triangulate(loops: &[Vec<u32>], at: impl Fn(u32) -> DVec2) -> Vec<
 /// The inner faces that belong to a leaf: those to the left of its edges, and what hangs together
 /// with them.
 fn tiles(
-    cdt: &ConstrainedDelaunayTriangulation<Node>,
+    cdt: &ConstrainedDelaunayTriangulation<DelaunayVertex>,
     owners: &HashMap<[u32; 2], usize>,
-) -> Vec<Tile> {
+) -> Vec<LeafTriangle> {
     let mut leaf_of: HashMap<FixedFaceHandle<InnerTag>, usize> = HashMap::new();
     let mut open = Vec::new();
     for face in cdt.inner_faces() {
@@ -88,9 +91,9 @@ fn tiles(
             }
         }
     }
-    let tile = |face: spade::handles::FaceHandle<'_, InnerTag, Node, _, _, _>| {
+    let tile = |face: spade::handles::FaceHandle<'_, InnerTag, DelaunayVertex, _, _, _>| {
         let corners = face.vertices().map(|vertex| vertex.data().place);
-        leaf_of.get(&face.fix()).map(|&leaf| Tile { corners, leaf })
+        leaf_of.get(&face.fix()).map(|&leaf| LeafTriangle { corners, leaf })
     };
     cdt.inner_faces().filter_map(tile).collect()
 }

@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::LightShare;
 use crate::colour::Rgb;
 use crate::mesh::ElementId;
 use crate::scene::boxes::local_origin;
 use crate::scene::{Camera, Node, Texture};
+use crate::surface::LightGroup;
 
 /// A conforming triangle mesh; all per-vertex lists are as long as `positions`.
 #[derive(Clone, Debug, Default)]
@@ -27,7 +27,7 @@ pub struct TriMesh {
     /// Corners, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
     /// Consecutive runs of triangles that share a material and an object; together they are all triangles.
-    pub parts: Vec<Part>,
+    pub parts: Vec<MeshPart>,
     /// Pictures that parts refer to.
     pub textures: Vec<Texture>,
     /// Names of the objects that parts belong to.
@@ -86,6 +86,15 @@ impl TriMesh {
     }
 }
 
+/// The light of one group of lights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightShare {
+    /// The lights, and how strong they are.
+    pub group: LightGroup,
+    /// Radiosity at a strength of 1, W/m², one per vertex of the mesh.
+    pub radiosity: Vec<Rgb>,
+}
+
 /// Light that arrives at a vertex, W/m²: B = E + ρ (direct + indirect).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Irradiance {
@@ -111,7 +120,7 @@ impl Irradiance {
 
 /// A run of triangles of one material and object.
 #[derive(Clone, Debug, Default)]
-pub struct Part {
+pub struct MeshPart {
     /// The material's name.
     pub name: String,
     /// Range of indices into [`TriMesh::triangles`].

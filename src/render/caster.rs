@@ -20,14 +20,14 @@ const SHEET: f64 = 1e-9;
 
 /// Which sides of the triangles stop a ray.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Sides {
+pub(super) enum VisibleSides {
     Front,
     Both,
 }
 
 /// Where a ray meets the mesh.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hit {
+pub(super) struct MeshHit {
     /// Index into [`TriMesh::triangles`].
     pub(super) triangle: usize,
     /// Distance from the eye, m.
@@ -38,7 +38,7 @@ pub(super) struct Hit {
     pub(super) front: bool,
 }
 
-impl Hit {
+impl MeshHit {
     /// Of the two sides of a sheet, which are equally far, the front comes first.
     fn is_before(&self, other: &Self) -> bool {
         match self.front == other.front {
@@ -54,12 +54,12 @@ impl Hit {
 pub(super) struct Caster {
     tree: Bvh2,
     /// In the order of the tree's leaves.
-    triangles: Vec<Triangle>,
+    triangles: Vec<IndexedTriangle>,
     centre: DVec3,
     size: f64,
 }
 
-struct Triangle {
+struct IndexedTriangle {
     corners: [DVec3; 3],
     index: usize,
 }
@@ -78,46 +78,56 @@ impl Caster {
         let triangles = tree
             .primitive_indices
             .iter()
-            .map(|&index| Triangle { corners: corners(index as usize), index: index as usize })
+            .map(|&index| IndexedTriangle {
+                corners: corners(index as usize),
+                index: index as usize,
+            })
             .collect();
         Self { tree, triangles, centre, size }
     }
 
     /// The nearest triangle from `eye` along the unit vector `direction`.
-    pub(super) fn first(&self, eye: DVec3, direction: DVec3, sides: Sides) -> Option<Hit> {
-        self.first_of((eye, direction), sides, |_| true)
+    pub(super) fn first(
+        &self,
+        eye: DVec3,
+        direction: DVec3,
+        sides: VisibleSides,
+    ) -> Option<MeshHit> {
+        self.first_of(eye, direction, sides, |_| true)
     }
 
     /// The same of the triangles that are there at the place where they are met.
     pub(super) fn first_of(
         &self,
-        (eye, direction): (DVec3, DVec3),
-        sides: Sides,
-        is_there: impl Fn(&Hit) -> bool,
-    ) -> Option<Hit> {
+        eye: DVec3,
+        direction: DVec3,
+        sides: VisibleSides,
+        is_there: impl Fn(&MeshHit) -> bool,
+    ) -> Option<MeshHit> {
         let eye = (eye - self.centre) / self.size;
         // All triangles are within the unit sphere: the ray starts where it may enter it.
         let skipped = (-eye.dot(direction) - 1.0).max(0.0);
         let origin = eye + skipped * direction;
-        let mut nearest: Option<Hit> = None;
+        let mut nearest: Option<MeshHit> = None;
         let ray = ray(origin, direction, f32::INFINITY);
         let mut ignored = obvhs::ray::RayHit::none();
         self.tree.ray_traverse(ray, &mut ignored, |_, slot| {
             let hit = self.triangles[slot].meet(origin, direction, sides);
-            let is_nearer = |hit: &Hit| nearest.is_none_or(|n| hit.is_before(&n)) && is_there(hit);
+            let is_nearer =
+                |hit: &MeshHit| nearest.is_none_or(|n| hit.is_before(&n)) && is_there(hit);
             let Some(hit) = hit.filter(is_nearer) else {
                 return f32::INFINITY;
             };
             nearest = Some(hit);
             hit.distance as f32
         });
-        nearest.map(|hit| Hit { distance: (hit.distance + skipped) * self.size, ..hit })
+        nearest.map(|hit| MeshHit { distance: (hit.distance + skipped) * self.size, ..hit })
     }
 }
 
-impl Triangle {
+impl IndexedTriangle {
     /// Edge functions as triple products: an edge has bitwise opposite values in its two triangles.
-    fn meet(&self, origin: DVec3, direction: DVec3, sides: Sides) -> Option<Hit> {
+    fn meet(&self, origin: DVec3, direction: DVec3, sides: VisibleSides) -> Option<MeshHit> {
         let [a, b, c] = self.corners.map(|corner| corner - origin);
         let edges = DVec3::new(
             direction.dot(c.cross(b)),
@@ -126,7 +136,7 @@ impl Triangle {
         );
         let sum = edges.element_sum();
         let front = sum > 0.0;
-        if sum == 0.0 || (sides == Sides::Front && !front) {
+        if sum == 0.0 || (sides == VisibleSides::Front && !front) {
             return None;
         }
         let weights = edges / sum;
@@ -140,7 +150,7 @@ impl Triangle {
         }
         let weights = weights.max(DVec3::ZERO);
         let weights = weights / weights.element_sum();
-        Some(Hit { triangle: self.index, distance, weights, front })
+        Some(MeshHit { triangle: self.index, distance, weights, front })
     }
 }
 

@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use glam::Vec3;
 use image::RgbImage;
 
-use super::legend::{self, Body, Legend};
+use super::legend::{self, Legend, LegendBody};
 use super::letters;
-use super::map::{Map, over_background, value_of_mesh};
+use super::map::{ColourMap, over_background, value_of_mesh};
 use super::picture::Picture;
 use super::view::View;
 use crate::colour::{Rgb, linear_from_srgb, luminance, srgb_from_linear};
@@ -57,7 +57,7 @@ pub fn displayed(picture: &Picture, display: &Display) -> RgbImage {
         View::Light => painted(picture, exposed),
         View::Wireframe => {
             let image = painted(picture, exposed);
-            legend::below(&image, &legend(&picture.caption, Body::Nothing))
+            legend::below(&image, &legend(&picture.caption, LegendBody::Nothing))
         }
         view if view.shows_colours() => {
             let colour = |index: usize| {
@@ -65,17 +65,17 @@ pub fn displayed(picture: &Picture, display: &Display) -> RgbImage {
                 over_background(coded(value), picture.coverage[index])
             };
             let image = painted(picture, colour);
-            legend::below(&image, &legend(&picture.caption, Body::Key(&picture.key)))
+            legend::below(&image, &legend(&picture.caption, LegendBody::Key(&picture.key)))
         }
         _ => {
-            let map = Map::new(picture, display.range);
+            let map = ColourMap::new(picture, display.range);
             let colour = |index: usize| {
                 let line = map.has_isoline(picture, index);
                 let strength = if line { ISOLINE_STRENGTH } else { 0.0 };
                 with_line(map.colour_of_pixel(picture, index), strength)
             };
             let image = painted(picture, colour);
-            legend::below(&image, &legend(&map.extremes_in_words(), Body::Scale(&map.scale)))
+            legend::below(&image, &legend(&map.extremes_in_words(), LegendBody::Scale(&map.scale)))
         }
     }
 }

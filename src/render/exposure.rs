@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::caster::{Caster, Sides};
-use super::rays::Rays;
+use super::caster::{Caster, VisibleSides};
+use super::rays::CameraRays;
 use super::shade::radiosity_at;
 use crate::colour::luminance;
 use crate::reconstruct::TriMesh;
@@ -24,12 +24,12 @@ const LAMP: f64 = 8.0;
 pub fn exposure_seen(mesh: &TriMesh, camera: &Camera, aspect: f64) -> Exposure {
     let aspect = if aspect.is_finite() { aspect.clamp(0.1, 10.0) } else { 1.0 };
     let width = (f64::from(ROWS) * aspect).ceil() as u32;
-    let rays = Rays::new(camera, width, ROWS);
+    let rays = CameraRays::new(camera, width, ROWS);
     let caster = Caster::new(mesh);
     let look = |index: u32| {
         let (column, row) = (index % width, index / width);
         let direction = rays.direction(f64::from(column) + 0.5, f64::from(row) + 0.5);
-        let hit = caster.first(rays.eye, direction.normalize(), Sides::Front)?;
+        let hit = caster.first(rays.eye, direction.normalize(), VisibleSides::Front)?;
         Some(luminance(radiosity_at(mesh, &hit)))
     };
     let seen: Vec<f64> = (0..width * ROWS).into_par_iter().filter_map(look).collect();

@@ -1,7 +1,7 @@
 //! What is known of leaves: their level, why they were made, and how good they are.
 
 use super::colours::{self, Swatch};
-use super::shade::Solved;
+use super::subject::Solved;
 use crate::colour::Rgb;
 use crate::mesh::{ElementId, Mesh, Reason, VertexId};
 use crate::refine::{Oracle, Sample};

@@ -4,7 +4,7 @@ use image::{GenericImage, Rgb as Pixel, RgbImage};
 
 use super::colours::{self, Swatch};
 use super::letters::{INK, Letters, fill};
-use super::map::Map;
+use super::map::ColourMap;
 use super::scale::{Scale, short_number};
 
 /// Narrowest picture, pixels, that a legend fits under.
@@ -19,17 +19,17 @@ pub(super) struct Legend<'a> {
     pub(super) label: &'static str,
     /// Said to the right of the label, or below it.
     pub(super) remark: String,
-    pub(super) body: Body<'a>,
+    pub(super) body: LegendBody<'a>,
 }
 
 /// What colours mean.
-pub(super) enum Body<'a> {
+pub(super) enum LegendBody<'a> {
     Nothing,
     Scale(&'a Scale),
     Key(&'a [Swatch]),
 }
 
-impl Map {
+impl ColourMap {
     /// Least and greatest value.
     pub(super) fn extremes_in_words(&self) -> String {
         self.extremes.map_or_else(String::new, |[low, high]| {
@@ -44,7 +44,7 @@ pub(super) fn below(picture: &RgbImage, legend: &Legend<'_>) -> RgbImage {
         return picture.clone();
     }
     let letters = Letters::for_picture(picture.width(), picture.height());
-    let layout = Layout::new(letters, picture.width(), legend);
+    let layout = LegendLayout::new(letters, picture.width(), legend);
     let height = picture.height() + layout.height;
     let mut image = RgbImage::from_pixel(picture.width(), height, Pixel(GROUND));
     // The larger image holds the smaller one.
@@ -54,7 +54,7 @@ pub(super) fn below(picture: &RgbImage, legend: &Legend<'_>) -> RgbImage {
 }
 
 /// Where things are, pixels from the top and left of the strip.
-struct Layout {
+struct LegendLayout {
     letters: Letters,
     /// Empty space around things.
     margin: u32,
@@ -68,7 +68,7 @@ struct Layout {
     height: u32,
 }
 
-impl Layout {
+impl LegendLayout {
     fn new(letters: Letters, width: u32, legend: &Legend<'_>) -> Self {
         let margin = letters.height / 4;
         let line = letters.height + margin;
@@ -85,9 +85,9 @@ impl Layout {
         };
         layout.place_words(width, legend);
         let body = match legend.body {
-            Body::Nothing => 0,
-            Body::Scale(_) => 2 * line + margin,
-            Body::Key(key) => layout.place_swatches(width, key),
+            LegendBody::Nothing => 0,
+            LegendBody::Scale(_) => 2 * line + margin,
+            LegendBody::Key(key) => layout.place_swatches(width, key),
         };
         layout.height = layout.body_top + body;
         layout
@@ -134,14 +134,14 @@ impl Layout {
         self.letters.height + self.margin
     }
 
-    fn draw(&self, image: &mut RgbImage, strip: u32, body: &Body<'_>) {
+    fn draw(&self, image: &mut RgbImage, strip: u32, body: &LegendBody<'_>) {
         for (text, [left, top]) in &self.words {
             self.letters.write(image, text, [*left, strip + top]);
         }
         match body {
-            Body::Nothing => {}
-            Body::Scale(scale) => self.draw_scale(image, strip + self.body_top, scale),
-            Body::Key(key) => {
+            LegendBody::Nothing => {}
+            LegendBody::Scale(scale) => self.draw_scale(image, strip + self.body_top, scale),
+            LegendBody::Key(key) => {
                 for (swatch, &[left, top]) in key.iter().zip(&self.swatches) {
                     let size = self.letters.height;
                     fill(image, [left, strip + top, size, size], swatch.colour);

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::caster::Hit;
-use super::rays::Rays;
+use super::caster::MeshHit;
+use super::rays::CameraRays;
 use crate::reconstruct::TriMesh;
 
 /// Height of a triangle in the picture, pixels, below which its lines fade, so that fine meshes
@@ -15,7 +15,12 @@ const FULL_STRENGTH: f64 = 6.0;
 /// An edge's function d·(P×Q) is linear in the direction d and so in the picture's coordinates:
 /// divided by its gradient it is the distance in pixels. Lines fall off linearly to one pixel on
 /// either side, which looks one pixel wide; neighbours draw half a line each.
-pub(super) fn line_coverage(mesh: &TriMesh, rays: &Rays, direction: DVec3, hit: &Hit) -> f64 {
+pub(super) fn line_coverage(
+    mesh: &TriMesh,
+    rays: &CameraRays,
+    direction: DVec3,
+    hit: &MeshHit,
+) -> f64 {
     let [a, b, c] =
         mesh.triangles[hit.triangle].map(|corner| mesh.positions[corner as usize] - rays.eye);
     let mut nearest = f64::INFINITY;

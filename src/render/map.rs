@@ -25,14 +25,14 @@ const ISOLINES: usize = 8;
 const BACKGROUND: f64 = 0.12;
 
 /// A map from values to colours, settled for one picture.
-pub(super) struct Map {
+pub(super) struct ColourMap {
     view: View,
     pub(super) scale: Scale,
     /// Least and greatest value in the picture; `None` if it shows no mesh.
     pub(super) extremes: Option<[f64; 2]>,
 }
 
-impl Map {
+impl ColourMap {
     /// A map for a picture; without a range, its ends are found without the picture's darkest and
     /// brightest hundredth and without lamps much brighter than the rest.
     pub(super) fn new(picture: &Picture, range: Option<[f64; 2]>) -> Self {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::scene::Camera;
 
 /// A camera with a picture's size.
-pub(super) struct Rays {
+pub(super) struct CameraRays {
     pub(super) eye: DVec3,
     /// Direction to the picture's top left corner, not of unit length.
     corner: DVec3,
@@ -15,7 +15,7 @@ pub(super) struct Rays {
     pub(super) down: DVec3,
 }
 
-impl Rays {
+impl CameraRays {
     /// Rays that exist for every camera: one that looks nowhere looks along −z.
     pub(super) fn new(camera: &Camera, width: u32, height: u32) -> Self {
         let forward = (camera.target - camera.eye).normalize_or(DVec3::NEG_Z);
@@ -37,7 +37,7 @@ impl Rays {
 /// A camera at the same place that sees, `zoom` times as large, what is around a place of a picture of
 /// this `size`, pixels.
 pub fn close_up(camera: &Camera, size: [u32; 2], [x, y]: [f64; 2], zoom: f64) -> Camera {
-    let direction = Rays::new(camera, size[0], size[1]).direction(x, y);
+    let direction = CameraRays::new(camera, size[0], size[1]).direction(x, y);
     let half = (camera.vertical_fov / 2.0).tan() / zoom;
     Camera {
         target: camera.eye + direction.normalize_or(DVec3::NEG_Z),

@@ -4,41 +4,27 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, Vec2};
 
-use super::caster::Hit;
+use super::caster::MeshHit;
 use super::colours::Swatch;
 use super::final_gather::FinalGather;
 use super::leaves;
-use super::picture::Subject;
+use super::subject::Subject;
 use super::view::View;
 use crate::colour::Rgb;
-use crate::reconstruct::{Irradiance, Part, TriMesh};
+use crate::reconstruct::{Irradiance, MeshPart, TriMesh};
 use crate::scene::Texture;
-use crate::settings::Settings;
-use crate::solver::Solution;
-use crate::surface::Surfaces;
-
-/// What a triangle mesh was made from.
-#[derive(Clone, Copy, Debug)]
-pub struct Solved<'a> {
-    /// The scene's surfaces.
-    pub surfaces: &'a Surfaces,
-    /// What the solution was held to.
-    pub settings: &'a Settings,
-    /// Their light.
-    pub solution: &'a Solution,
-}
 
 /// Direct light at the place itself; without, it is interpolated.
 pub(super) type Gather<'a> = Option<&'a FinalGather<'a>>;
 
 /// A view's value at a place, and what the white of the picture that lies there would have; of radiosity that can differ.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Seen {
+pub(super) struct ShadedValue {
     pub(super) value: Rgb,
     pub(super) white: Rgb,
 }
 
-impl From<Rgb> for Seen {
+impl From<Rgb> for ShadedValue {
     fn from(value: Rgb) -> Self {
         Self { value, white: value }
     }
@@ -73,7 +59,7 @@ impl<'a> Shade<'a> {
     }
 
     /// Whether a ray ends at a triangle, or goes through a hole that is cut out of it.
-    pub(super) fn is_there(&self, hit: &Hit) -> bool {
+    pub(super) fn is_there(&self, hit: &MeshHit) -> bool {
         let Some(cutoff) = part_of(self.mesh, hit.triangle).and_then(|part| part.cutoff) else {
             return true;
         };
@@ -84,7 +70,7 @@ impl<'a> Shade<'a> {
     }
 
     /// The view's value at a place, linear RGB.
-    pub(super) fn value(&self, hit: &Hit, gather: Gather<'_>) -> Seen {
+    pub(super) fn value(&self, hit: &MeshHit, gather: Gather<'_>) -> ShadedValue {
         match self.view {
             View::Light | View::Wireframe | View::Radiosity => self.radiance(hit, gather),
             View::Direct => self.direct(hit, gather).into(),
@@ -96,18 +82,18 @@ impl<'a> Shade<'a> {
         }
     }
 
-    fn radiance(&self, hit: &Hit, gather: Gather<'_>) -> Seen {
+    fn radiance(&self, hit: &MeshHit, gather: Gather<'_>) -> ShadedValue {
         let texture = texture_on(self.mesh, hit.triangle);
         let light = self.light(hit, texture.is_some(), gather) / PI;
         let Some(number) = texture else { return light.into() };
-        Seen {
+        ShadedValue {
             value: light * texture_at(self.mesh, number, hit),
             white: light * self.whites[number],
         }
     }
 
     /// Radiosity, that of a white picture where there is one.
-    fn light(&self, hit: &Hit, is_textured: bool, gather: Gather<'_>) -> Rgb {
+    fn light(&self, hit: &MeshHit, is_textured: bool, gather: Gather<'_>) -> Rgb {
         let interpolated = light_at(self.mesh, hit, is_textured);
         let Some(gather) = gather else {
             return interpolated;
@@ -124,7 +110,7 @@ impl<'a> Shade<'a> {
     ///
     /// What the vertices say, changed by as much as they are wrong here about the light on this
     /// facet: so facets of a curved surface share their light with final gathering as without.
-    fn direct(&self, hit: &Hit, gather: Gather<'_>) -> Rgb {
+    fn direct(&self, hit: &MeshHit, gather: Gather<'_>) -> Rgb {
         let Irradiance { direct, direct_on_facet, .. } = self.irradiance(hit);
         let Some(gather) = gather else {
             return direct;
@@ -134,13 +120,13 @@ impl<'a> Shade<'a> {
     }
 
     /// Where a hit is, m.
-    fn place(&self, hit: &Hit) -> DVec3 {
+    fn place(&self, hit: &MeshHit) -> DVec3 {
         let corners = self.mesh.triangles[hit.triangle].map(|c| self.mesh.positions[c as usize]);
         corners.iter().zip(hit.weights.to_array()).map(|(&p, weight)| p * weight).sum()
     }
 
     /// What the vertices say of the light that arrives; nothing in a mesh read from a file.
-    fn irradiance(&self, hit: &Hit) -> Irradiance {
+    fn irradiance(&self, hit: &MeshHit) -> Irradiance {
         let corners = self.mesh.triangles[hit.triangle].map(|corner| corner as usize);
         let mut mean = Irradiance::default();
         for (corner, weight) in corners.into_iter().zip(hit.weights.to_array()) {
@@ -154,21 +140,21 @@ impl<'a> Shade<'a> {
 }
 
 /// Radiosity, W/m², at `hit`, textured.
-pub(super) fn radiosity_at(mesh: &TriMesh, hit: &Hit) -> Rgb {
+pub(super) fn radiosity_at(mesh: &TriMesh, hit: &MeshHit) -> Rgb {
     let texture = texture_on(mesh, hit.triangle);
     let light = light_at(mesh, hit, texture.is_some());
     texture.map_or(light, |number| light * texture_at(mesh, number, hit))
 }
 
 /// Interpolated radiosity, W/m², that of a white picture on a textured triangle.
-fn light_at(mesh: &TriMesh, hit: &Hit, is_textured: bool) -> Rgb {
+fn light_at(mesh: &TriMesh, hit: &MeshHit, is_textured: bool) -> Rgb {
     let corners = mesh.triangles[hit.triangle].map(|corner| corner as usize);
     let light = |vertex| if is_textured { mesh.light(vertex) } else { mesh.radiosity[vertex] };
     let weighted = corners.into_iter().zip(hit.weights.to_array());
     weighted.map(|(corner, weight)| light(corner) * weight).sum()
 }
 
-fn part_of(mesh: &TriMesh, triangle: usize) -> Option<&Part> {
+fn part_of(mesh: &TriMesh, triangle: usize) -> Option<&MeshPart> {
     mesh.parts.get(mesh.parts.partition_point(|part| part.triangles.end <= triangle))
 }
 
@@ -179,12 +165,12 @@ fn texture_on(mesh: &TriMesh, triangle: usize) -> Option<usize> {
 }
 
 /// Colour of a texture at `hit`.
-fn texture_at(mesh: &TriMesh, number: usize, hit: &Hit) -> Rgb {
+fn texture_at(mesh: &TriMesh, number: usize, hit: &MeshHit) -> Rgb {
     mesh.textures[number].mixed(uv_at(mesh, hit))
 }
 
 /// Texture coordinates at `hit`.
-fn uv_at(mesh: &TriMesh, hit: &Hit) -> Vec2 {
+fn uv_at(mesh: &TriMesh, hit: &MeshHit) -> Vec2 {
     let corners = mesh.triangles[hit.triangle].map(|corner| corner as usize);
     let weighted = corners.iter().zip(hit.weights.to_array());
     weighted.map(|(&corner, weight)| mesh.uvs[corner] * weight as f32).sum()

@@ -9,11 +9,11 @@ use std::time::Instant;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::caster::{Caster, Hit, Sides};
+use super::caster::{Caster, MeshHit, VisibleSides};
 use super::lines::line_coverage;
-use super::picture::RenderOptions;
-use super::rays::Rays;
-use super::shade::{Gather, Seen, Shade};
+use super::options::RenderOptions;
+use super::rays::CameraRays;
+use super::shade::{Gather, Shade, ShadedValue};
 use crate::colour::Rgb;
 use crate::scene::Camera;
 use crate::watch::{Enough, Pace, watched};
@@ -34,24 +34,25 @@ pub(super) struct Pixel {
     range: [Rgb; 2],
 }
 
-pub(super) struct Tracer<'a> {
+pub(super) struct PixelTracer<'a> {
     shade: Shade<'a>,
     caster: Caster,
-    rays: Rays,
+    rays: CameraRays,
     options: &'a RenderOptions,
     background: Rgb,
 }
 
 /// A place in a pixel, 0..1 across and down.
-type Place = (f64, f64);
+type PixelOffset = [f64; 2];
 
-impl<'a> Tracer<'a> {
+impl<'a> PixelTracer<'a> {
     pub(super) fn new(
-        (camera, options): (&Camera, &'a RenderOptions),
+        camera: &Camera,
+        options: &'a RenderOptions,
         shade: Shade<'a>,
         background: Rgb,
     ) -> Self {
-        let rays = Rays::new(camera, options.width, options.height);
+        let rays = CameraRays::new(camera, options.width, options.height);
         Self { caster: Caster::new(shade.mesh), shade, rays, options, background }
     }
 
@@ -64,36 +65,36 @@ impl<'a> Tracer<'a> {
         let count = self.options.width as usize * self.options.height as usize;
         let (first, rest) = places_of_samples(self.options.samples.max(1));
         let all: Vec<usize> = (0..count).collect();
-        let mut work = Work { tracer: &self, gather, observe, is_over: false };
+        let mut batches = SampleBatches { tracer: &self, gather, observe, is_over: false };
         if rest.is_empty() {
-            return work.sample(&all, &first, 0.0..1.0);
+            return batches.sample(&all, &first, 0.0..1.0);
         }
-        let mut pixels = work.pixels(&all, &first, 0.0..0.1);
+        let mut pixels = batches.pixels(&all, &first, 0.0..0.1);
         if gather.is_some() {
-            let changes = work.changes(&all, first[first.len() / 2], 0.1..0.5);
+            let changes = batches.changes(&all, first[first.len() / 2], 0.1..0.5);
             pixels.iter_mut().zip(changes).for_each(|(pixel, change)| pixel.change(change));
         }
         let rough: Vec<usize> =
             all.into_par_iter().filter(|&index| self.is_rough(&pixels, index)).collect();
         if gather.is_some() {
             let places = [first, rest].concat();
-            let found = work.sample(&rough, &places, 0.5..1.0);
+            let found = batches.sample(&rough, &places, 0.5..1.0);
             rough.into_iter().zip(found).for_each(|(index, pixel)| pixels[index] = pixel);
         } else {
             let share = rest.len() as f64 / (first.len() + rest.len()) as f64;
             // Pixels for which there is no time stay as they are.
-            for (index, more) in rough.iter().zip(work.more(&rough, &rest, 0.1..1.0)) {
+            for (index, more) in rough.iter().zip(batches.more(&rough, &rest, 0.1..1.0)) {
                 pixels[*index].add(&more, share);
             }
         }
         pixels
     }
 
-    fn pixel(&self, index: usize, places: &[Place], gather: Gather<'_>) -> Pixel {
+    fn pixel(&self, index: usize, places: &[PixelOffset], gather: Gather<'_>) -> Pixel {
         let share = 1.0 / places.len() as f64;
         let mut pixel = Pixel { range: [Rgb::MAX, Rgb::MIN], ..Pixel::default() };
         for &place in places {
-            let (Seen { value, white }, coverage, line) = match self.look(index, place) {
+            let (ShadedValue { value, white }, coverage, line) = match self.look(index, place) {
                 Some((direction, hit)) => {
                     (self.shade.value(&hit, gather), 1.0, self.line(direction, &hit))
                 }
@@ -109,22 +110,22 @@ impl<'a> Tracer<'a> {
     }
 
     /// By how much evaluating light anew changes the value at a place in a pixel.
-    fn change(&self, index: usize, place: Place, gather: Gather<'_>) -> Seen {
-        self.look(index, place).map_or(Seen::default(), |(_, hit)| {
+    fn change(&self, index: usize, place: PixelOffset, gather: Gather<'_>) -> ShadedValue {
+        self.look(index, place).map_or(ShadedValue::default(), |(_, hit)| {
             let [anew, known] = [gather, None].map(|gather| self.shade.value(&hit, gather));
-            Seen { value: anew.value - known.value, white: anew.white - known.white }
+            ShadedValue { value: anew.value - known.value, white: anew.white - known.white }
         })
     }
 
     /// The direction, not of unit length, of a place in a pixel.
-    fn direction(&self, index: usize, (x, y): Place) -> DVec3 {
+    fn direction(&self, index: usize, [x, y]: PixelOffset) -> DVec3 {
         let width = self.options.width as usize;
         let (left, top) = ((index % width) as f64, (index / width) as f64);
         self.rays.direction(left + x, top + y)
     }
 
     /// What is seen where there is no mesh.
-    fn beyond(&self, index: usize, place: Place) -> Rgb {
+    fn beyond(&self, index: usize, place: PixelOffset) -> Rgb {
         if !self.options.view.shows_light() {
             return self.background;
         }
@@ -134,15 +135,16 @@ impl<'a> Tracer<'a> {
     }
 
     /// What is met at a place in a pixel, and in which direction.
-    fn look(&self, index: usize, place: Place) -> Option<(DVec3, Hit)> {
+    fn look(&self, index: usize, place: PixelOffset) -> Option<(DVec3, MeshHit)> {
         let direction = self.direction(index, place);
-        let ray = (self.rays.eye, direction.normalize());
-        let hit = self.caster.first_of(ray, Sides::Front, |hit| self.shade.is_there(hit))?;
+        let is_there = |hit: &MeshHit| self.shade.is_there(hit);
+        let unit = direction.normalize();
+        let hit = self.caster.first_of(self.rays.eye, unit, VisibleSides::Front, is_there)?;
         Some((direction, hit))
     }
 
     /// Strength of the mesh's lines.
-    fn line(&self, direction: DVec3, hit: &Hit) -> f64 {
+    fn line(&self, direction: DVec3, hit: &MeshHit) -> f64 {
         match self.options.view.shows_lines() {
             true => line_coverage(self.shade.mesh, &self.rays, direction, hit),
             false => 0.0,
@@ -177,7 +179,7 @@ impl Pixel {
     }
 
     /// Changes all samples alike.
-    fn change(&mut self, change: Seen) {
+    fn change(&mut self, change: ShadedValue) {
         self.value = (self.value + change.value).max(Rgb::ZERO);
         self.white = (self.white + change.white).max(Rgb::ZERO);
         self.range = self.range.map(|value| value + change.value);
@@ -185,23 +187,23 @@ impl Pixel {
 }
 
 /// Samples on their way, in batches that may be the last ones.
-struct Work<'a, 'b> {
-    tracer: &'a Tracer<'a>,
+struct SampleBatches<'a, 'b> {
+    tracer: &'a PixelTracer<'a>,
     gather: Gather<'a>,
     observe: &'b mut dyn FnMut(f64) -> ControlFlow<()>,
     /// True once told to stop: what is still to be done must be quick.
     is_over: bool,
 }
 
-impl<'a> Work<'a, '_> {
+impl<'a> SampleBatches<'a, '_> {
     /// Pixels by the samples at `places`, told as a part of the whole.
-    fn sample(&mut self, pixels: &[usize], places: &[Place], part: Range<f64>) -> Vec<Pixel> {
+    fn sample(&mut self, pixels: &[usize], places: &[PixelOffset], part: Range<f64>) -> Vec<Pixel> {
         let tracer = self.tracer;
         self.batches(pixels, part, |index, gather, _| tracer.pixel(index, places, gather))
     }
 
     /// All pixels by the samples at `places` without light anew; by one of them when told to stop.
-    fn pixels(&mut self, pixels: &[usize], places: &[Place], part: Range<f64>) -> Vec<Pixel> {
+    fn pixels(&mut self, pixels: &[usize], places: &[PixelOffset], part: Range<f64>) -> Vec<Pixel> {
         let tracer = self.tracer;
         self.batches(pixels, part, |index, _, is_over| {
             tracer.pixel(index, if is_over { &places[..1] } else { places }, None)
@@ -209,7 +211,7 @@ impl<'a> Work<'a, '_> {
     }
 
     /// More samples without light anew, of the first of the pixels only when told to stop.
-    fn more(&mut self, pixels: &[usize], places: &[Place], part: Range<f64>) -> Vec<Pixel> {
+    fn more(&mut self, pixels: &[usize], places: &[PixelOffset], part: Range<f64>) -> Vec<Pixel> {
         let tracer = self.tracer;
         let more = self.batches(pixels, part, |index, _, is_over| {
             (!is_over).then(|| tracer.pixel(index, places, None))
@@ -218,7 +220,12 @@ impl<'a> Work<'a, '_> {
     }
 
     /// Changes by evaluating light anew at one place of each pixel.
-    fn changes(&mut self, pixels: &[usize], place: Place, part: Range<f64>) -> Vec<Seen> {
+    fn changes(
+        &mut self,
+        pixels: &[usize],
+        place: PixelOffset,
+        part: Range<f64>,
+    ) -> Vec<ShadedValue> {
         let tracer = self.tracer;
         self.batches(pixels, part, |index, gather, _| tracer.change(index, place, gather))
     }
@@ -260,7 +267,7 @@ fn around(place: usize, count: usize) -> Range<usize> {
 
 /// Places in a pixel of `samples` squared samples: those that come first, one a row and column, and
 /// the rest.
-fn places_of_samples(samples: u32) -> (Vec<Place>, Vec<Place>) {
+fn places_of_samples(samples: u32) -> (Vec<PixelOffset>, Vec<PixelOffset>) {
     let is_first = |i: u32, j: u32| samples < 3 || j == (2 * i + 1) % (samples | 1);
     let all = (0..samples).flat_map(|i| (0..samples).map(move |j| (i, j)));
     let (first, rest): (Vec<_>, Vec<_>) = all.partition(|&(i, j)| is_first(i, j));
@@ -272,7 +279,7 @@ fn places_of_samples(samples: u32) -> (Vec<Place>, Vec<Place>) {
 
 /// Place in a pixel, 0..1, of sample `i`, `j` out of `samples` squared: on a grid turned so that
 /// no two samples share a row or column, which grades edges near the axes finest.
-fn place_of_sample(i: u32, j: u32, samples: u32) -> Place {
+fn place_of_sample(i: u32, j: u32, samples: u32) -> PixelOffset {
     let [i, j, n] = [i, j, samples].map(f64::from);
-    ((i + (j + 0.5) / n) / n, (j + (n - i - 0.5) / n) / n)
+    [(i + (j + 0.5) / n) / n, (j + (n - i - 0.5) / n) / n]
 }

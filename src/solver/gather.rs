@@ -21,13 +21,13 @@ use super::sources::{Piece, Sources};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::{
-    Cover, DeltaFactors, Hemicube, Sight, Targets, enough_cells, turn,
+    DeltaFactors, Hemicube, HemicubeScene, PatchCoverage, VisiblePatch, enough_cells, turn,
 };
 use crate::light::Optics;
 use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
-use crate::visibility::Occluders;
+use crate::visibility::{Occluders, SurfacePoint};
 
 /// Most cells along the edge of the hemicubes over vertices: they measure visibility only, and vertices
 /// are many.
@@ -132,7 +132,7 @@ impl<'a> Gatherer<'a> {
             vertices.into_iter().filter(|&v| light.indirect(v).is_none()).collect();
         dark.sort_unstable();
         dark.dedup();
-        let targets = Targets::new(&mesh.patches);
+        let targets = HemicubeScene::new(&mesh.patches);
         let lookouts = lookouts(mesh, self.groups, self.near, &dark);
         let lit: Vec<Vec<Vec<Gathered>>> = observer.evaluate(&lookouts, |batch, enough| {
             let hemicube = || Hemicube::new(&self.delta, &targets, self.occluders);
@@ -238,11 +238,11 @@ impl<'a> Gatherer<'a> {
         (place, turn): ((DVec3, DVec3), f64),
         arrive: &mut impl FnMut(&Arrival<'_>),
     ) -> (View, u64) {
-        let hemicube = hemicube.look(place, turn);
+        let hemicube = hemicube.look(SurfacePoint::new(place.0, place.1), turn);
         let (mut factors, mut view) = (0, View::new());
         let is_whole = |patch: PatchId| !self.groups.holds(patch);
         let is_plain = |patch: PatchId| is_whole(patch) && !self.glares[patch.index()];
-        for sight in hemicube.sights_of(is_plain).filter(|sight| sight.front) {
+        for sight in hemicube.visible_patches_of(is_plain).filter(|sight| sight.front) {
             factors += self.receive(mesh, hemicube, (place, sight), arrive);
             if sight.delta > WIDE {
                 view.push((sight.patch, sight.delta));
@@ -258,8 +258,10 @@ impl<'a> Gatherer<'a> {
             }
         }
         // Facets are many and small: their cells are all that is to be known of them.
-        let facets = hemicube.prints_of(|patch| !is_whole(patch));
-        for Cover { patch, kept, .. } in facets.filter(|cover| cover.front && cover.kept > 0.0) {
+        let facets = hemicube.coverage_of(|patch| !is_whole(patch));
+        for PatchCoverage { patch, kept, .. } in
+            facets.filter(|cover| cover.front && cover.kept > 0.0)
+        {
             let light = self.sources.mean(mesh[patch].root) * kept;
             arrive(&Arrival { light, corners: &mesh[patch].corners });
             if kept > WIDE {
@@ -274,7 +276,7 @@ impl<'a> Gatherer<'a> {
         &self,
         mesh: &Mesh,
         hemicube: &Hemicube<'_>,
-        ((site, normal), sight): ((DVec3, DVec3), Sight),
+        ((site, normal), sight): ((DVec3, DVec3), VisiblePatch),
         arrive: &mut impl FnMut(&Arrival<'_>),
     ) -> u64 {
         let surfaces = self.surfaces;

@@ -8,9 +8,10 @@ use smallvec::SmallVec;
 use super::groups::{Groups, Part, centre};
 use super::transport::{CLOSE, CLOSE_SHARE, Link, NEAR, Row};
 use crate::form_factor::contour::point_to_polygon;
-use crate::form_factor::hemicube::{Cover, Hemicube, Sight, turn};
+use crate::form_factor::hemicube::{Hemicube, PatchCoverage, VisiblePatch, turn};
 use crate::mesh::{ElementId, Mesh, Patch, PatchId};
 use crate::surface::Surfaces;
+use crate::visibility::SurfacePoint;
 
 /// How often a group is halved at most where something is close: sixteen parts look for themselves.
 const HALVINGS: u32 = 4;
@@ -31,7 +32,8 @@ pub(super) fn row(
         let speaker = &mesh[part.speaker];
         let plane = &surfaces.list[speaker.surface as usize].plane;
         let eye = (mesh.centre(speaker.root, plane), speaker.normal);
-        let hemicube = hemicube.look(eye, turn(speaker.root.index() as f64));
+        let hemicube =
+            hemicube.look(SurfacePoint::new(eye.0, eye.1), turn(speaker.root.index() as f64));
         let divisible = depth < HALVINGS && part.members.len() > 1;
         if divisible && hemicube.share_within(CLOSE * part.size) > CLOSE_SHARE {
             open.extend(part.halves(mesh).map(|half| (half, depth + 1)));
@@ -59,7 +61,7 @@ impl Shot<'_, '_> {
     fn deliver(&self, row: &mut Row) {
         let Self { mesh, groups, hemicube, share, .. } = *self;
         row.escaped += hemicube.escaping() * share;
-        for sight in hemicube.sights_of(|patch| !groups.holds(patch)) {
+        for sight in hemicube.visible_patches_of(|patch| !groups.holds(patch)) {
             if sight.front {
                 self.link(sight, row);
             } else {
@@ -74,7 +76,7 @@ impl Shot<'_, '_> {
     }
 
     /// Links the speaker with the elements of a patch, fine enough for their distance.
-    fn link(&self, Sight { patch, visible, .. }: Sight, row: &mut Row) {
+    fn link(&self, VisiblePatch { patch, visible, .. }: VisiblePatch, row: &mut Row) {
         let mesh = self.mesh;
         let plane = &self.surfaces.list[mesh[patch].surface as usize].plane;
         let root = mesh[patch].root;
@@ -113,7 +115,7 @@ impl Shot<'_, '_> {
 #[derive(Debug, Default)]
 pub(super) struct Facets {
     /// By group, what is seen of its fronts.
-    pub(super) fronts: BTreeMap<usize, Cover>,
+    pub(super) fronts: BTreeMap<usize, PatchCoverage>,
     /// Share of the view that their backs fill.
     pub(super) on_backs: f64,
 }
@@ -121,9 +123,9 @@ pub(super) struct Facets {
 impl Facets {
     pub(super) fn seen(groups: &Groups, hemicube: &Hemicube<'_>) -> Self {
         let mut facets = Self::default();
-        for cover in hemicube.prints_of(|patch| groups.holds(patch)) {
+        for cover in hemicube.coverage_of(|patch| groups.holds(patch)) {
             if cover.front {
-                let none = Cover { covered: 0.0, kept: 0.0, ..cover };
+                let none = PatchCoverage { covered: 0.0, kept: 0.0, ..cover };
                 let sum = facets.fronts.entry(groups.of(cover.patch)).or_insert(none);
                 sum.covered += cover.covered;
                 sum.kept += cover.kept;
@@ -141,7 +143,7 @@ impl Facets {
 pub(super) fn exchange_nearby(
     mesh: &Mesh,
     polygon: &[DVec3],
-    (members, cover): (&[PatchId], Cover),
+    (members, cover): (&[PatchId], PatchCoverage),
 ) -> f64 {
     let factor = |facet: &Patch| {
         let centre = centre(facet);

@@ -11,7 +11,7 @@ use super::solution::Solution;
 use super::sources::Sources;
 use crate::colour::{LUMENS_PER_WATT, Rgb, luminance};
 use crate::direct::Lamps;
-use crate::form_factor::hemicube::{Hemicube, Targets, turn};
+use crate::form_factor::hemicube::{Hemicube, HemicubeScene, turn};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
@@ -65,7 +65,7 @@ pub fn read(
     let groups = Groups::new(surfaces, settings, mesh);
     let surroundings = Surroundings { surfaces, occluders: &occluders, groups: &groups };
     let gatherer = Gatherer::new(surroundings, settings, mesh, sources, level);
-    let targets = Targets::new(&mesh.patches);
+    let targets = HemicubeScene::new(&mesh.patches);
     let hemicube = |_: &Enough| Hemicube::new(gatherer.delta(), &targets, &occluders);
     let numbered: Vec<_> = places.iter().copied().enumerate().collect();
     let reading = |hemicube: &mut Hemicube<'_>, &(k, (place, normal)): &(usize, _)| Reading {

@@ -11,10 +11,11 @@ use smallvec::SmallVec;
 use super::groups::Groups;
 use super::parts::{self, Facets};
 use crate::form_factor::contour::point_to_polygon;
-use crate::form_factor::hemicube::{Hemicube, Sight, turn};
+use crate::form_factor::hemicube::{Hemicube, VisiblePatch, turn};
 use crate::mesh::{Element, ElementId, Mesh, PatchId};
 use crate::surface::Surfaces;
 use crate::surface::polygon::centroid;
+use crate::visibility::SurfacePoint;
 
 /// Elements nearer to each other than this many of their sizes exchange light by their parts.
 pub(super) const NEAR: f64 = 2.0;
@@ -101,16 +102,16 @@ fn row_of_patch(transport: Transport<'_>, hemicube: &mut Hemicube<'_>, shooter: 
     while let Some(source) = open.pop() {
         let place = Place::new(mesh, surfaces, source);
         let eye = (place.centre, place.normal);
-        let hemicube = hemicube.look(eye, turn(source.index() as f64));
+        let hemicube = hemicube.look(SurfacePoint::new(eye.0, eye.1), turn(source.index() as f64));
         if transport.looks_by_parts(hemicube, source, place.size) {
             open.extend_from_slice(&mesh[source].children);
             continue;
         }
         let share = mesh[source].area / patch.area;
         row.escaped += hemicube.escaping() * share;
-        for sight in hemicube.sights_of(|patch| !groups.holds(patch)) {
+        for sight in hemicube.visible_patches_of(|patch| !groups.holds(patch)) {
             if sight.front {
-                let Sight { patch, visible, .. } = sight;
+                let VisiblePatch { patch, visible, .. } = sight;
                 Linking { mesh, surfaces, hemicube, patch, visible }.link(source, &mut row);
             } else {
                 row.on_backs += sight.delta * share;

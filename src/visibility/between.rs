@@ -3,13 +3,12 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::shadow::Seen;
-use super::shaft::{Body, Shaft};
-use super::{Facet, HalfSpace, Occluder, Occluders, Pieces, Polygon};
+use super::clip::{Pieces, PlanarPolygon};
+use super::occluder::Occluder;
+use super::occluders::Occluders;
+use super::shadow::VisibleRegion;
+use super::shaft::{ConvexBody, Shaft};
 use crate::scene::area_vector;
-
-/// Corners nearer to each other than this share of the tolerance are one.
-const ROUNDING: f64 = 1e-3;
 
 /// The parts of occluders that lie in the convex hull of two polygons, in front of both.
 #[derive(Debug)]
@@ -22,18 +21,17 @@ pub struct Between {
 
 impl Occluders {
     /// What stands between two polygons that face each other.
-    pub fn between(&self, a: Facet<'_>, b: Facet<'_>) -> Between {
+    pub fn between(&self, a: PlanarPolygon<'_>, b: PlanarPolygon<'_>) -> Between {
         let tolerance = self.tolerance;
-        let shaft = Shaft::between(&Body::polygon(a), &Body::polygon(b), tolerance);
+        let shaft = Shaft::between(&ConvexBody::polygon(a), &ConvexBody::polygon(b), tolerance);
         let mut near: SmallVec<[&Occluder; 16]> = SmallVec::new();
         self.for_each_in(&self.all(), &shaft, |number, _| {
             near.push(&self.polygons[number as usize]);
             true
         });
-        let hides_all =
-            near.iter().any(|occluder| hides(occluder, a.corners, b.corners, tolerance));
+        let hides_all = near.iter().any(|occluder| occluder.hides(a.corners, b.corners, tolerance));
         let along = (b.corners[0] - a.corners[0]).normalize_or_zero();
-        let parts = near.iter().filter_map(|occluder| inside(occluder, shaft.sides(), tolerance));
+        let parts = near.iter().filter_map(|occluder| occluder.inside(shaft.sides(), tolerance));
         // What hides most comes first: it leaves the others little to cut.
         let mut parts: Vec<(f64, Occluder)> =
             parts.map(|part| (area_vector(&part.corners).dot(along).abs(), part)).collect();
@@ -41,28 +39,13 @@ impl Occluders {
         Between { parts: parts.into_iter().map(|(_, part)| part).collect(), tolerance, hides_all }
     }
 
-    /// An occluder by its number, below [`Self::len`].
-    pub fn facet(&self, number: u32) -> Facet<'_> {
-        let Occluder { corners, plane, .. } = &self.polygons[number as usize];
-        Facet { corners, plane: *plane }
-    }
-
-    /// Number of occluders.
-    pub fn len(&self) -> usize {
-        self.polygons.len()
-    }
-
-    /// True if nothing hides anything.
-    pub fn is_empty(&self) -> bool {
-        self.polygons.is_empty()
-    }
-
     /// True if nothing stands between two polygons that face each other.
-    pub fn is_clear(&self, a: Facet<'_>, b: Facet<'_>) -> bool {
-        let shaft = Shaft::between(&Body::polygon(a), &Body::polygon(b), self.tolerance);
+    pub fn is_clear(&self, a: PlanarPolygon<'_>, b: PlanarPolygon<'_>) -> bool {
+        let shaft =
+            Shaft::between(&ConvexBody::polygon(a), &ConvexBody::polygon(b), self.tolerance);
         let mut clear = true;
         self.for_each_in(&self.all(), &shaft, |_, occluder| {
-            clear &= inside(occluder, shaft.sides(), self.tolerance).is_none();
+            clear &= occluder.inside(shaft.sides(), self.tolerance).is_none();
             clear
         });
         clear
@@ -89,8 +72,8 @@ impl Between {
     /// The pieces of `source`, one of the two polygons, that `eye`, on the other one, sees.
     ///
     /// The eye must be in front of the source's plane.
-    pub fn visible_part(&self, eye: DVec3, source: Facet<'_>) -> Pieces {
-        let mut seen = Seen::new(eye, source, self.tolerance);
+    pub fn visible_part(&self, eye: DVec3, source: PlanarPolygon<'_>) -> Pieces {
+        let mut seen = VisibleRegion::new(eye, source, self.tolerance);
         for part in &self.parts {
             if let Some(shadow) = seen.shadow(part) {
                 seen.subtract(&shadow);
@@ -101,27 +84,4 @@ impl Between {
         }
         seen.pieces()
     }
-}
-
-/// The part of an occluder inside of all half spaces, if there is one.
-pub(super) fn inside(occluder: &Occluder, hull: &[HalfSpace], tolerance: f64) -> Option<Occluder> {
-    let mut corners: Polygon = occluder.corners.clone();
-    for side in hull {
-        if corners.iter().all(|&p| side.depth(p) <= tolerance) {
-            return None;
-        }
-        if corners.iter().any(|&p| side.depth(p) < 0.0) {
-            corners = side.clip(&corners);
-        }
-    }
-    // Edges no longer than rounding have no direction.
-    let previous = |k: usize| corners[(k + corners.len() - 1) % corners.len()];
-    let distinct = |&k: &usize| corners[k].distance(previous(k)) > ROUNDING * tolerance;
-    let corners: Polygon = (0..corners.len()).filter(distinct).map(|k| corners[k]).collect();
-    (corners.len() >= 3).then_some(Occluder { corners, ..*occluder })
-}
-
-/// True if an occluder crosses all segments between corners of two bodies, and so, being convex, all segments.
-pub(super) fn hides(occluder: &Occluder, a: &[DVec3], b: &[DVec3], tolerance: f64) -> bool {
-    a.iter().all(|&p| b.iter().all(|&q| occluder.crosses(p, q, tolerance)))
 }

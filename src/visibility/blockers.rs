@@ -2,9 +2,9 @@
 
 use smallvec::SmallVec;
 
-use super::between::{hides, inside};
-use super::shaft::{Body, Shaft};
-use super::{Occluder, Occluders};
+use super::occluder::Occluder;
+use super::occluders::Occluders;
+use super::shaft::{ConvexBody, Shaft};
 
 /// More occluders than this are not listed one by one.
 const FEW: usize = 32;
@@ -47,11 +47,12 @@ impl Occluders {
     pub fn narrowed(
         &self,
         around: &Blockers,
-        (a, b): (&Body, &Body),
+        a: &ConvexBody,
+        b: &ConvexBody,
         ignored: impl Fn(u32) -> bool,
     ) -> Blockers {
         let shaft = Shaft::between(a, b, self.tolerance);
-        let search = Search { occluders: self, bodies: (a, b), shaft: &shaft, ignored: &ignored };
+        let search = Search { occluders: self, bodies: [a, b], shaft: &shaft, ignored: &ignored };
         match around {
             Blockers::Opaque => Blockers::Opaque,
             Blockers::Few(list) => search.among(list.iter().copied()),
@@ -84,11 +85,17 @@ impl Occluders {
     }
 
     /// The numbers of the blockers of a shaft that stand between two bodies inside of it, up to `most` of them.
-    pub fn numbers_in(&self, around: &Blockers, (a, b): (&Body, &Body), most: usize) -> Vec<u32> {
+    pub fn numbers_in(
+        &self,
+        around: &Blockers,
+        a: &ConvexBody,
+        b: &ConvexBody,
+        most: usize,
+    ) -> Vec<u32> {
         let shaft = Shaft::between(a, b, self.tolerance);
         let mut numbers = Vec::new();
         self.for_each_in(around, &shaft, |number, occluder| {
-            if inside(occluder, shaft.sides(), self.tolerance).is_some() {
+            if occluder.inside(shaft.sides(), self.tolerance).is_some() {
                 numbers.push(number);
             }
             numbers.len() < most
@@ -100,7 +107,7 @@ impl Occluders {
 /// Looks for what stands in a shaft.
 struct Search<'a, F> {
     occluders: &'a Occluders,
-    bodies: (&'a Body, &'a Body),
+    bodies: [&'a ConvexBody; 2],
     shaft: &'a Shaft,
     ignored: &'a F,
 }
@@ -112,7 +119,7 @@ impl<F: Fn(u32) -> bool> Search<'_, F> {
         for number in numbers {
             let occluder = &occluders.polygons[number as usize];
             if (self.ignored)(occluder.surface)
-                || inside(occluder, shaft.sides(), occluders.tolerance).is_none()
+                || occluder.inside(shaft.sides(), occluders.tolerance).is_none()
             {
                 continue;
             }
@@ -179,7 +186,7 @@ impl<F: Fn(u32) -> bool> Search<'_, F> {
     }
 
     fn hides_all(&self, occluder: &Occluder) -> bool {
-        let (a, b) = self.bodies;
-        hides(occluder, a.corners(), b.corners(), self.occluders.tolerance)
+        let [a, b] = self.bodies;
+        occluder.hides(a.corners(), b.corners(), self.occluders.tolerance)
     }
 }

@@ -3,8 +3,13 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
+use crate::mesh::Patch;
+
 /// A convex planar polygon in space.
 pub type Polygon = SmallVec<[DVec3; 8]>;
+
+/// Pieces of a polygon; they do not overlap.
+pub type Pieces = SmallVec<[Polygon; 2]>;
 
 /// The half space in front of a plane.
 #[derive(Clone, Copy, Debug)]
@@ -17,17 +22,22 @@ pub struct HalfSpace {
 
 /// A convex polygon and the half space that its front faces.
 #[derive(Clone, Copy, Debug)]
-pub struct Facet<'a> {
+pub struct PlanarPolygon<'a> {
     /// Its corners, counter-clockwise seen from the front.
     pub corners: &'a [DVec3],
     /// In front of it.
     pub plane: HalfSpace,
 }
 
-impl<'a> Facet<'a> {
+impl<'a> PlanarPolygon<'a> {
     /// The polygon with these corners and unit `normal`.
     pub fn new(corners: &'a [DVec3], normal: DVec3) -> Self {
         Self { corners, plane: HalfSpace::new(corners[0], normal) }
+    }
+
+    /// The front of a patch.
+    pub fn of(patch: &'a Patch) -> Self {
+        Self::new(&patch.corners, patch.normal)
     }
 }
 

@@ -4,7 +4,8 @@ use glam::DVec3;
 use obvhs::ray::RayHit;
 
 use super::hierarchy::ray;
-use super::{Occluder, Occluders};
+use super::occluder::Occluder;
+use super::occluders::Occluders;
 
 /// Where a ray meets an occluder.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -41,7 +41,7 @@ struct Item {
 }
 
 /// A node whose children are yet to be made.
-struct Open {
+struct UnsplitNode {
     node: usize,
     items: std::ops::Range<usize>,
     level: usize,
@@ -49,7 +49,7 @@ struct Open {
 
 /// Where to split: between two bins along an axis.
 #[derive(Clone, Copy)]
-struct Cut {
+struct BinSplit {
     axis: usize,
     /// Last bin of the lower side.
     bin: u32,
@@ -78,8 +78,8 @@ pub fn hierarchy(boxes: &[Aabb]) -> Bvh2 {
     }
     let deepest = levels(items.len()) + PATIENCE;
     tree.nodes.push(leaf(&items, 0..items.len()));
-    let mut open = vec![Open { node: 0, items: 0..items.len(), level: 1 }];
-    while let Some(Open { node, items: range, level }) = open.pop() {
+    let mut open = vec![UnsplitNode { node: 0, items: 0..items.len(), level: 1 }];
+    while let Some(UnsplitNode { node, items: range, level }) = open.pop() {
         tree.max_depth = tree.max_depth.max(level);
         let patient = level as u32 + levels(range.len()) <= deepest;
         let bounds = *tree.nodes[node].aabb();
@@ -89,7 +89,7 @@ pub fn hierarchy(boxes: &[Aabb]) -> Bvh2 {
         tree.nodes[node].make_inner(first as u32);
         for (side, items_of) in [range.start..middle, middle..range.end].into_iter().enumerate() {
             tree.nodes.push(leaf(&items, items_of.clone()));
-            open.push(Open { node: first + side, items: items_of, level: level + 1 });
+            open.push(UnsplitNode { node: first + side, items: items_of, level: level + 1 });
         }
     }
     tree.primitive_indices = items.iter().map(|item| item.index).collect();
@@ -125,10 +125,10 @@ fn split(items: &mut [Item], bounds: &Aabb, patient: bool) -> Option<usize> {
     }
     let bins = Bins::new(items);
     let whole = bounds.half_area() * items.len() as f32;
-    let cut = bins.best().filter(|cut| !small || bounds.half_area() * VISIT + cut.cost < whole);
-    match cut {
-        Some(cut) if patient => {
-            let lower = partition(items, |item| bins.bin(item)[cut.axis] <= cut.bin);
+    let best = bins.best().filter(|best| !small || bounds.half_area() * VISIT + best.cost < whole);
+    match best {
+        Some(best) if patient => {
+            let lower = partition(items, |item| bins.bin(item)[best.axis] <= best.bin);
             Some(lower).filter(|lower| (1..items.len()).contains(lower)).or(Some(items.len() / 2))
         }
         _ if small => None,
@@ -181,8 +181,8 @@ impl Bins {
     }
 
     /// The split of least cost; of equal ones the first. `None` if the centres are all in one place.
-    fn best(&self) -> Option<Cut> {
-        let mut best: Option<Cut> = None;
+    fn best(&self) -> Option<BinSplit> {
+        let mut best: Option<BinSplit> = None;
         for axis in (0..3).filter(|&axis| self.scale[axis] > 0.0) {
             let mut above = [0.0; BINS];
             let (mut bounds, mut count) = (Aabb::INVALID, 0);
@@ -197,7 +197,7 @@ impl Bins {
                 count += self.counts[axis][k];
                 let cost = cost(&bounds, count) + above[k + 1];
                 if best.is_none_or(|best| cost < best.cost) {
-                    best = Some(Cut { axis, bin: k as u32, cost });
+                    best = Some(BinSplit { axis, bin: k as u32, cost });
                 }
             }
         }

@@ -1,205 +1,35 @@
 //! What stands between two places: segment and shaft queries on a bounding volume hierarchy.
+//!
+//! - `clip`: convex polygons and half spaces; `surface_point`: where eyes are, with the horizon there
+//! - `hierarchy`: trees of boxes, and rays through them
+//! - `occluder`, `occluders`: the convex pieces of the surfaces, and whether one of them crosses a segment
+//! - `first`: which of them a ray meets first
+//! - `shaft`, `blockers`: the convex hull of two bodies, and what may stand in it
+//! - `shadow`, `between`, `visible`: shadows cut out of a polygon, seen from another one or from a point
+//! - `coplanar`, `patches`, `packet`: the first patch of a mesh along a ray, or along each of many
 
 mod between;
 mod blockers;
 mod clip;
+mod coplanar;
 mod first;
 pub mod hierarchy;
+mod occluder;
+mod occluders;
 pub mod packet;
 mod patches;
 mod shadow;
 mod shaft;
+mod surface_point;
 mod visible;
-
-use glam::{DVec3, Vec3A};
-use obvhs::aabb::Aabb;
-use obvhs::bvh2::Bvh2;
-use smallvec::SmallVec;
-
-use crate::surface::Surfaces;
-use crate::surface::cut::{Cuts, convex_pieces};
 
 pub use between::Between;
 pub use blockers::Blockers;
-pub use clip::{Facet, HalfSpace, Polygon};
+pub use clip::{HalfSpace, Pieces, PlanarPolygon, Polygon};
+pub(crate) use coplanar::{RECESS, hair};
 pub use first::Met;
-use hierarchy::{hierarchy, ray};
+pub use occluders::Occluders;
 pub use patches::PatchHierarchy;
-pub(crate) use patches::hair;
-pub use shaft::{Body, Shaft};
-pub use visible::{CROWDED, Pieces};
-
-/// All that blocks light: convex pieces of the surfaces, from both sides.
-#[derive(Clone)]
-pub struct Occluders {
-    /// In the order of the hierarchy's leaves.
-    polygons: Vec<Occluder>,
-    bvh: Bvh2,
-    /// Near the middle of the scene, m: the hierarchy works in 32 bits.
-    centre: DVec3,
-    extent: f64,
-    tolerance: f64,
-}
-
-/// A convex piece of a surface.
-#[derive(Clone, Debug)]
-struct Occluder {
-    corners: Polygon,
-    plane: HalfSpace,
-    /// Index into [`Surfaces::list`], or into the polygons given.
-    surface: u32,
-}
-
-impl std::fmt::Debug for Occluders {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Occluders").field("polygons", &self.polygons.len()).finish_non_exhaustive()
-    }
-}
-
-/// Beyond what 32 bits round places to, as a share of the extent.
-const ROUNDING: f64 = 1e-6;
-
-impl Occluders {
-    /// The occluders of a scene.
-    pub fn new(surfaces: &Surfaces) -> Self {
-        Self::of(polygons(surfaces).collect(), surfaces.tolerance)
-    }
-
-    /// Convex planar polygons as occluders; distances up to `tolerance`, m, count as zero.
-    ///
-    /// Polygons without area are left out.
-    pub fn from_polygons(polygons: &[&[DVec3]], tolerance: f64) -> Self {
-        let normal = |p: &[DVec3]| (p[1] - p[0]).cross(p[2] - p[0]).try_normalize();
-        let occluder = |(number, p): (usize, &&[DVec3])| {
-            let plane = HalfSpace::new(p[0], normal(p)?);
-            Some(Occluder { corners: (*p).into(), plane, surface: number as u32 })
-        };
-        Self::of(polygons.iter().enumerate().filter_map(occluder).collect(), tolerance)
-    }
-
-    fn of(polygons: Vec<Occluder>, tolerance: f64) -> Self {
-        let corners = || polygons.iter().flat_map(|p| p.corners.iter().copied());
-        let low = corners().fold(DVec3::INFINITY, DVec3::min);
-        let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
-        let centre = if low.is_finite() { low.midpoint(high) } else { DVec3::ZERO };
-        let extent = if low.is_finite() { low.distance(high) } else { 0.0 };
-        // Grown so that rounding to 32 bits loses nothing, however far out.
-        let margin = Vec3A::splat((tolerance * 5.0).max(ROUNDING * extent) as f32);
-        let boxes: Vec<Aabb> = polygons
-            .iter()
-            .map(|polygon| {
-                let at = polygon.corners.iter().map(|&p| (p - centre).as_vec3a());
-                let tight = Aabb::from_points(&at.collect::<SmallVec<[Vec3A; 8]>>());
-                Aabb::new(tight.min - margin, tight.max + margin)
-            })
-            .collect();
-        let bvh = hierarchy(&boxes);
-        let ordered = bvh.primitive_indices.iter().map(|&k| polygons[k as usize].clone()).collect();
-        Self { polygons: ordered, bvh, centre, extent, tolerance }
-    }
-
-    /// Distances that count as zero, m.
-    pub fn tolerance(&self) -> f64 {
-        self.tolerance
-    }
-
-    /// A distance from within the scene to beyond all of it, m.
-    pub fn extent(&self) -> f64 {
-        2.0 * self.extent
-    }
-
-    /// True if an occluder crosses the segment from `a` to `b`, its ends left out.
-    pub fn blocks(&self, a: DVec3, b: DVec3) -> bool {
-        self.blocks_beyond(a, b, |_| false)
-    }
-
-    /// The same for occluders of whose surfaces `ignored` is false.
-    pub fn blocks_beyond(&self, a: DVec3, b: DVec3, ignored: impl Fn(u32) -> bool) -> bool {
-        if self.polygons.is_empty() {
-            return false;
-        }
-        // With a unit direction: the hierarchy takes components below 1e-7 for zero, whatever the
-        // scene's size.
-        let along = (b - a).normalize_or_zero();
-        let ray = ray(a - self.centre, along, a.distance(b) as f32);
-        !self.bvh.ray_traverse_miss(ray, |_, slot| {
-            let occluder = &self.polygons[slot];
-            let blocks = occluder.crosses(a, b, self.tolerance) && !ignored(occluder.surface);
-            if blocks { 0.0 } else { f32::INFINITY }
-        })
-    }
-
-    /// Calls `visit` for the occluders in boxes that `enter` lets in, until it returns false.
-    fn for_each(
-        &self,
-        enter: impl FnMut(DVec3, DVec3) -> bool,
-        visit: impl FnMut(u32, &Occluder) -> bool,
-    ) {
-        let root: &[u32] = if self.polygons.is_empty() { &[] } else { &[0] };
-        self.for_each_under(root, enter, visit);
-    }
-
-    /// The same for those under some nodes of the hierarchy.
-    fn for_each_under(
-        &self,
-        nodes: &[u32],
-        mut enter: impl FnMut(DVec3, DVec3) -> bool,
-        mut visit: impl FnMut(u32, &Occluder) -> bool,
-    ) {
-        let mut stack: SmallVec<[u32; 96]> = nodes.iter().rev().copied().collect();
-        while let Some(index) = stack.pop() {
-            let (low, high) = self.bounds_of(index);
-            if !enter(low, high) {
-                continue;
-            }
-            let node = &self.bvh.nodes[index as usize];
-            if !node.is_leaf() {
-                stack.extend([node.first_index + 1, node.first_index]);
-                continue;
-            }
-            for index in node.first_index..node.first_index + node.prim_count {
-                if !visit(index, &self.polygons[index as usize]) {
-                    return;
-                }
-            }
-        }
-    }
-
-    /// Opposite corners of a node's box, m.
-    fn bounds_of(&self, node: u32) -> (DVec3, DVec3) {
-        let bounds = self.bvh.nodes[node as usize].aabb();
-        (bounds.min.as_dvec3() + self.centre, bounds.max.as_dvec3() + self.centre)
-    }
-}
-
-impl Occluder {
-    /// True if the segment passes from one side to the other, through the polygon or its border.
-    fn crosses(&self, a: DVec3, b: DVec3, tolerance: f64) -> bool {
-        let (from, to) = (self.plane.depth(a), self.plane.depth(b));
-        if from.abs() <= tolerance || to.abs() <= tolerance || from * to > 0.0 {
-            return false;
-        }
-        self.holds(a.lerp(b, from / (from - to)), tolerance)
-    }
-
-    /// True if a place on its plane is inside the polygon or on its border.
-    fn holds(&self, at: DVec3, tolerance: f64) -> bool {
-        (0..self.corners.len()).all(|k| {
-            let (p, q) = (self.corners[k], self.corners[(k + 1) % self.corners.len()]);
-            (q - p).cross(at - p).dot(self.plane.normal) >= -tolerance * (q - p).length()
-        })
-    }
-}
-
-/// Convex pieces of all surfaces, each double-sided polygon once.
-fn polygons(surfaces: &Surfaces) -> impl Iterator<Item = Occluder> + '_ {
-    let fronts = surfaces.list.iter().enumerate().filter(|(_, surface)| !surface.is_back);
-    fronts.flat_map(|(number, surface)| {
-        let cuts = Cuts { segments: &[], size: f64::INFINITY, tolerance: surfaces.tolerance };
-        convex_pieces(&surface.rings, &cuts).into_iter().map(move |piece| Occluder {
-            corners: piece.iter().map(|&p| surface.plane.lift(p)).collect(),
-            plane: HalfSpace::new(surface.plane.origin, surface.plane.normal),
-            surface: number as u32,
-        })
-    })
-}
+pub use shaft::{ConvexBody, Shaft};
+pub use surface_point::SurfacePoint;
+pub use visible::{CROWDED, Pyramid};

@@ -13,7 +13,7 @@ use obvhs::bvh2::node::Bvh2Node;
 use pulp::{Arch, Simd, WithSimd};
 use smallvec::SmallVec;
 
-use super::patches::{EDGE, PatchHierarchy, View};
+use super::patches::{EDGE, PatchHierarchy, ProjectedQuad};
 
 /// Rays in a packet.
 pub const RAYS: usize = 16;
@@ -73,21 +73,16 @@ impl WithSimd for Cast<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { scene, eye, packets } = self;
-        let origin = (eye - scene.centre).as_vec3a();
         for packet in packets {
-            walk(simd, scene, (eye, origin), packet);
+            walk(simd, scene, eye, packet);
         }
     }
 }
 
 /// Visits the nodes that a ray of the packet enters, near ones first.
 #[inline(always)]
-fn walk<S: Simd>(
-    simd: S,
-    scene: &PatchHierarchy,
-    (eye, origin): (DVec3, Vec3A),
-    packet: &mut Packet,
-) {
+fn walk<S: Simd>(simd: S, scene: &PatchHierarchy, eye: DVec3, packet: &mut Packet) {
+    let origin = (eye - scene.centre).as_vec3a();
     let inverse = from_fn(|axis| from_fn(|ray| inverse(packet.directions[axis][ray])));
     let mut walk = Walk { origin, inverse, ends: [f32::INFINITY; RAYS] };
     let mut last = f32::INFINITY;
@@ -112,8 +107,8 @@ fn walk<S: Simd>(
                 continue;
             }
             for quad in &scene.quads[first as usize..(first + node.prim_count) as usize] {
-                if let Some(view) = quad.seen(eye, scene.hair) {
-                    meet(simd, (&view, quad.patch), packet);
+                if let Some(quad) = quad.seen(eye, scene.hair) {
+                    meet(simd, &quad, packet);
                 }
             }
             last = walk.end(simd, &packet.nearness);
@@ -168,19 +163,19 @@ impl Walk {
 
 /// Tests a quad, as the eye sees it, against all rays of a packet.
 #[inline(always)]
-fn meet<S: Simd>(simd: S, (view, patch): (&View, u32), packet: &mut Packet) {
+fn meet<S: Simd>(simd: S, quad: &ProjectedQuad, packet: &mut Packet) {
     let sides: [[f32; 4]; 4] = from_fn(
         #[inline(always)]
         |k| {
-            let [x, y, z] = view.edges.map(
+            let [x, y, z] = quad.edges.map(
                 #[inline(always)]
                 |component| component[k] as f32,
             );
             [x, y, z, (x.abs() + y.abs() + z.abs()) * EDGE as f32]
         },
     );
-    let plane = splat(simd, view.plane.as_vec3().to_array());
-    let (zero, number) = (simd.splat_f32s(0.0), simd.splat_f32s(f32::from_bits(patch)));
+    let plane = splat(simd, quad.plane.as_vec3().to_array());
+    let (zero, number) = (simd.splat_f32s(0.0), simd.splat_f32s(f32::from_bits(quad.patch)));
     let [x, y, z] = packet.directions.each_ref().map(
         #[inline(always)]
         |lanes| S::as_simd_f32s(lanes).0,

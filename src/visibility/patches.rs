@@ -9,19 +9,13 @@ use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::ray::RayHit;
 
+use super::coplanar::{RECESS, hair};
 use super::hierarchy::{hierarchy, ray};
 use crate::mesh::{Patch, PatchId};
 
 /// How far outside an edge's plane through the eye a ray still hits, radians or somewhat more:
 /// above the rounding of 32 bits, so that packets, too, are watertight.
 pub(super) const EDGE: f64 = 4e-7;
-
-/// Factor on the nearness of backs: of two faces back to back in one place, the front one must win
-/// over rounding.
-pub(super) const RECESS: f64 = 1.0 - 1e-5;
-
-/// Rounding of heights over planes, m and as a share of the largest coordinate.
-const HAIR: [f64; 2] = [1e-11, 4e-15];
 
 /// Growth of boxes, as a share of the scene's extent: some times the rounding of 32 bits.
 const PADDING: f64 = 4e-6;
@@ -43,16 +37,17 @@ pub(super) struct Quad {
     /// x, y and z of its corners, m; a triangle's last corner twice.
     corners: [[f64; 4]; 3],
     normal: DVec3,
-    pub(super) patch: u32,
+    patch: u32,
     two_sided: bool,
 }
 
 /// A quad as an eye sees it.
-pub(super) struct View {
+pub(super) struct ProjectedQuad {
     /// x, y and z of the normals of the planes through the eye and each edge, towards the inside.
     pub(super) edges: [[f64; 4]; 3],
     /// The ray along d meets the quad's plane at the parameter 1 / (d · plane).
     pub(super) plane: DVec3,
+    pub(super) patch: u32,
 }
 
 impl std::fmt::Debug for PatchHierarchy {
@@ -100,14 +95,6 @@ impl PatchHierarchy {
     }
 }
 
-/// How high over the plane of a patch an eye must be, m: what is in one plane with it is seen edge-on, that is, not at
-/// all, whatever rounding makes of it.
-pub(crate) fn hair(patches: &[Patch]) -> f64 {
-    let corners = patches.iter().flat_map(|patch| &patch.corners);
-    let farthest = corners.map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
-    HAIR[0].max(HAIR[1] * farthest)
-}
-
 impl Quad {
     /// Quads that together cover a patch: a fan around its first corner.
     fn cover(patch: &Patch, index: u32) -> impl Iterator<Item = Self> + '_ {
@@ -135,7 +122,7 @@ impl Quad {
 
     /// The quad as `eye` sees it; `None` if it is edge-on, or the back of what has a patch there.
     #[inline(always)]
-    pub(super) fn seen(&self, eye: DVec3, hair: f64) -> Option<View> {
+    pub(super) fn seen(&self, eye: DVec3, hair: f64) -> Option<ProjectedQuad> {
         let [x, y, z] = [0, 1, 2].map(|axis| self.corners[axis].map(|c| c - eye[axis]));
         let to_corner = DVec3::new(x[0], y[0], z[0]);
         let depth = to_corner.dot(self.normal);
@@ -150,11 +137,11 @@ impl Quad {
             std::array::from_fn(|k| inward * (p[k] * q[(k + 1) % 4] - q[k] * p[(k + 1) % 4]))
         };
         let edges = [cross(y, z), cross(z, x), cross(x, y)];
-        Some(View { edges, plane: self.normal * (recess / depth) })
+        Some(ProjectedQuad { edges, plane: self.normal * (recess / depth), patch: self.patch })
     }
 }
 
-impl View {
+impl ProjectedQuad {
     /// Reciprocal of the distance at which the ray along `d` meets the quad; 0 if it does not.
     fn meet(&self, d: DVec3) -> f64 {
         let [x, y, z] = &self.edges;

@@ -3,8 +3,8 @@
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
-use super::clip::{Facet, HalfSpace, Polygon};
-use super::{Occluder, Pieces};
+use super::clip::{HalfSpace, Pieces, PlanarPolygon, Polygon};
+use super::occluder::Occluder;
 use crate::surface::polygon::area;
 
 /// A convex polygon in the source's plane, m.
@@ -12,23 +12,23 @@ type Flat = SmallVec<[DVec2; 8]>;
 
 /// A rectangle along the axes of the source's plane, m.
 #[derive(Clone, Copy)]
-struct Bounds {
+struct Rectangle {
     low: DVec2,
     high: DVec2,
 }
 
 /// A piece of the source, and the rectangle around it.
 #[derive(Clone)]
-struct Piece {
+struct SourcePiece {
     outline: Flat,
-    bounds: Bounds,
+    bounds: Rectangle,
 }
 
 /// Share of the tolerance by which a shadow must reach into a piece: above rounding alone.
 const ROUNDING: f64 = 1e-3;
 
 /// What an eye sees of a source.
-pub(super) struct Seen {
+pub(super) struct VisibleRegion {
     eye: DVec3,
     /// The eye is in front.
     plane: HalfSpace,
@@ -37,7 +37,7 @@ pub(super) struct Seen {
     /// Orthonormal axes of its plane.
     axes: [DVec3; 2],
     whole: Flat,
-    pieces: SmallVec<[Piece; 4]>,
+    pieces: SmallVec<[SourcePiece; 4]>,
     tolerance: f64,
 }
 
@@ -54,12 +54,12 @@ struct Side {
 pub(super) struct Shadow {
     sides: SmallVec<[Side; 4]>,
     /// Around its part on the source.
-    bounds: Bounds,
+    bounds: Rectangle,
     /// Area of its part on the source, m².
     pub(super) area: f64,
 }
 
-impl Bounds {
+impl Rectangle {
     fn of(outline: &[DVec2]) -> Self {
         let low = outline.iter().copied().fold(DVec2::INFINITY, DVec2::min);
         Self { low, high: outline.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max) }
@@ -70,15 +70,15 @@ impl Bounds {
     }
 }
 
-impl From<Flat> for Piece {
+impl From<Flat> for SourcePiece {
     fn from(outline: Flat) -> Self {
-        Self { bounds: Bounds::of(&outline), outline }
+        Self { bounds: Rectangle::of(&outline), outline }
     }
 }
 
-impl Seen {
+impl VisibleRegion {
     /// All of `source`, in front of whose plane the eye is; distances up to `tolerance`, m, count as zero.
-    pub(super) fn new(eye: DVec3, source: Facet<'_>, tolerance: f64) -> Self {
+    pub(super) fn new(eye: DVec3, source: PlanarPolygon<'_>, tolerance: f64) -> Self {
         let normal = source.plane.normal;
         let origin = source.corners[0];
         let x = (source.corners[1] - origin).try_normalize();
@@ -123,10 +123,10 @@ impl Seen {
         for (k, &from) in front.iter().enumerate() {
             let to = front[(k + 1) % front.len()];
             let Some(side) = self.side([from, to], -height.signum()) else { continue };
-            match side.cuts(&on_source, least) {
-                Cut::Outside => return None,
-                Cut::Inside => {}
-                Cut::Both => {
+            match side.classify(&on_source, least) {
+                Classification::Outside => return None,
+                Classification::Inside => {}
+                Classification::Both => {
                     side.clip(&on_source, 1.0, &mut spare);
                     std::mem::swap(&mut on_source, &mut spare);
                     sides.push(side);
@@ -135,7 +135,7 @@ impl Seen {
         }
         (front.len() >= 3).then(|| Shadow {
             sides,
-            bounds: Bounds::of(&on_source),
+            bounds: Rectangle::of(&on_source),
             area: area(&on_source).abs(),
         })
     }
@@ -152,8 +152,9 @@ impl Seen {
     pub(super) fn subtract(&mut self, shadow: &Shadow) {
         let least = ROUNDING * self.tolerance;
         for k in (0..self.pieces.len()).rev() {
-            let Piece { outline, bounds } = &self.pieces[k];
-            let is_outside = |side: &Side| matches!(side.cuts(outline, least), Cut::Outside);
+            let SourcePiece { outline, bounds } = &self.pieces[k];
+            let is_outside =
+                |side: &Side| matches!(side.classify(outline, least), Classification::Outside);
             if bounds.meets(&shadow.bounds) && !shadow.sides.iter().any(is_outside) {
                 self.cut(k, &shadow.sides, least);
             }
@@ -165,11 +166,11 @@ impl Seen {
         let count = self.pieces.len();
         let (mut rest, mut spare) = (self.pieces[piece].outline.clone(), Flat::new());
         for side in sides {
-            match side.cuts(&rest, least) {
+            match side.classify(&rest, least) {
                 // No part is in the shadow after all.
-                Cut::Outside => return self.pieces.truncate(count),
-                Cut::Inside => {}
-                Cut::Both => {
+                Classification::Outside => return self.pieces.truncate(count),
+                Classification::Inside => {}
+                Classification::Both => {
                     let mut outside = Flat::new();
                     side.clip(&rest, -1.0, &mut outside);
                     self.pieces.push(outside.into());
@@ -190,7 +191,7 @@ impl Shadow {
 }
 
 /// On which sides of a line something lies.
-enum Cut {
+enum Classification {
     Inside,
     Outside,
     Both,
@@ -201,7 +202,7 @@ impl Side {
         self.slope.dot(p) + self.offset
     }
 
-    fn cuts(&self, polygon: &[DVec2], least: f64) -> Cut {
+    fn classify(&self, polygon: &[DVec2], least: f64) -> Classification {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for &p in polygon {
             let depth = self.depth(p);
@@ -209,9 +210,9 @@ impl Side {
             high = high.max(depth);
         }
         match (high > least, low < -least) {
-            (false, _) => Cut::Outside,
-            (true, false) => Cut::Inside,
-            (true, true) => Cut::Both,
+            (false, _) => Classification::Outside,
+            (true, false) => Classification::Inside,
+            (true, true) => Classification::Both,
         }
     }
 

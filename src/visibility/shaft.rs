@@ -7,11 +7,11 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::clip::{Facet, HalfSpace};
+use super::clip::{HalfSpace, PlanarPolygon};
 
 /// A convex body: a point, a planar polygon or a box.
 #[derive(Clone, Debug)]
-pub struct Body {
+pub struct ConvexBody {
     corners: SmallVec<[DVec3; 8]>,
     /// Its edges, as pairs of corners.
     edges: SmallVec<[[u8; 2]; 12]>,
@@ -27,14 +27,14 @@ pub struct Shaft {
     high: DVec3,
 }
 
-impl Body {
+impl ConvexBody {
     /// A polygon that faces what is in front of it.
-    pub fn polygon(facet: Facet<'_>) -> Self {
-        let n = facet.corners.len() as u8;
+    pub fn polygon(polygon: PlanarPolygon<'_>) -> Self {
+        let n = polygon.corners.len() as u8;
         Self {
-            corners: facet.corners.into(),
+            corners: polygon.corners.into(),
             edges: (0..n).map(|k| [k, (k + 1) % n]).collect(),
-            front: Some(facet.plane),
+            front: Some(polygon.plane),
         }
     }
 
@@ -81,7 +81,7 @@ impl Body {
 
 impl Shaft {
     /// Everything between two bodies and in front of both; distances up to `tolerance`, m, count as zero.
-    pub fn between(a: &Body, b: &Body, tolerance: f64) -> Self {
+    pub fn between(a: &ConvexBody, b: &ConvexBody, tolerance: f64) -> Self {
         let corners = || a.corners.iter().chain(&b.corners).copied();
         let mut sides: SmallVec<[HalfSpace; 16]> = SmallVec::new();
         sides.extend(a.front.into_iter().chain(b.front));
@@ -95,11 +95,11 @@ impl Shaft {
     }
 
     /// Everything between a point and a polygon, which must lie above the eye's horizon and not in one plane with it.
-    pub(super) fn from_eye(eye: DVec3, source: &[DVec3], towards_eye: HalfSpace) -> Self {
+    pub(super) fn from_eye(eye: DVec3, source: PlanarPolygon<'_>) -> Self {
         let mut sides: SmallVec<[HalfSpace; 16]> =
-            cone(eye, source, towards_eye.depth(eye)).collect();
-        sides.push(towards_eye);
-        let corners = || source.iter().copied().chain([eye]);
+            cone(eye, source.corners, source.plane.depth(eye)).collect();
+        sides.push(source.plane);
+        let corners = || source.corners.iter().copied().chain([eye]);
         Self {
             sides,
             low: corners().fold(DVec3::INFINITY, DVec3::min),
@@ -141,7 +141,11 @@ fn cone(eye: DVec3, polygon: &[DVec3], height: f64) -> impl Iterator<Item = Half
 
 /// The half spaces that hold both bodies and have an edge of the first and a corner of the second
 /// on their border.
-fn supports<'a>(a: &'a Body, b: &'a Body, tolerance: f64) -> impl Iterator<Item = HalfSpace> + 'a {
+fn supports<'a>(
+    a: &'a ConvexBody,
+    b: &'a ConvexBody,
+    tolerance: f64,
+) -> impl Iterator<Item = HalfSpace> + 'a {
     let through = move |[from, to]: [u8; 2], corner: DVec3| {
         let (from, to) = (a.corners[from as usize], a.corners[to as usize]);
         let plane = HalfSpace::new(from, (to - from).cross(corner - from).try_normalize()?);

@@ -3,19 +3,27 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::clip::{Facet, HalfSpace, Polygon};
-use super::shadow::{Seen, Shadow};
+use super::blockers::Blockers;
+use super::clip::{Pieces, PlanarPolygon};
+use super::occluder::Occluder;
+use super::occluders::Occluders;
+use super::shadow::{Shadow, VisibleRegion};
 use super::shaft::Shaft;
-use super::{Blockers, Occluder, Occluders};
-
-/// The visible pieces of a polygon; they do not overlap.
-pub type Pieces = SmallVec<[Polygon; 2]>;
 
 /// Beyond this many pieces, or shadows, a shaft is crowded, and cutting on costs more than sampling.
 pub const CROWDED: usize = 96;
 
 /// Shadows are sorted by size in lots of this many; so in a crowd, none is cut before it is known for one.
 const BATCH: usize = CROWDED + 1;
+
+/// An eye and what it looks at.
+#[derive(Clone, Copy, Debug)]
+pub struct Pyramid<'a> {
+    /// The eye, in front of the plane of the base.
+    pub apex: DVec3,
+    /// A polygon whose front it sees.
+    pub base: PlanarPolygon<'a>,
+}
 
 impl Occluders {
     /// The pieces of `source` that `eye` sees.
@@ -24,44 +32,47 @@ impl Occluders {
     /// Exact for any number of convex occluders, but for those in one plane with the eye.
     /// `None` if so many stand in the way that cutting them out does not pay.
     pub fn visible_part(&self, eye: DVec3, source: &[DVec3], normal: DVec3) -> Option<Pieces> {
-        self.visible_among((&self.all(), CROWDED), eye, Facet::new(source, normal), |_| false)
+        let view = Pyramid { apex: eye, base: PlanarPolygon::new(source, normal) };
+        self.visible_among(view, &self.all(), CROWDED, |_| false)
     }
 
-    /// As [`Self::visible_part`], with nothing in the way but `blockers`, and of these not those whose surfaces
-    /// are to be `ignored`; `None` at more than `most` pieces or shadows.
+    /// As [`Self::visible_part`] of the base of `view`, with nothing in the way but `blockers`, and of these not those
+    /// whose surfaces are to be `ignored`; `None` at more than `most` pieces or shadows.
     pub fn visible_among(
         &self,
-        (blockers, most): (&Blockers, usize),
-        eye: DVec3,
-        facet: Facet<'_>,
+        view: Pyramid<'_>,
+        blockers: &Blockers,
+        most: usize,
         ignored: impl Fn(u32) -> bool,
     ) -> Option<Pieces> {
-        let mut shade = Shade::new(Seen::new(eye, facet, self.tolerance), most.min(CROWDED));
+        let seen = VisibleRegion::new(view.apex, view.base, self.tolerance);
+        let mut rest = ShadowSubtraction::new(seen, most.min(CROWDED));
         if let Blockers::Few(list) = blockers {
             // So few that looking for those in the shaft takes longer than cutting.
             let mut occluders = list.iter().map(|&number| &self.polygons[number as usize]);
-            occluders.all(|occluder| ignored(occluder.surface) || shade.by(occluder));
+            occluders.all(|occluder| ignored(occluder.surface) || rest.shade_by(occluder));
         } else {
-            let shaft = Shaft::from_eye(eye, facet.corners, facet.plane);
+            let shaft = Shaft::from_eye(view.apex, view.base);
             self.for_each_in(blockers, &shaft, |_, occluder| {
-                ignored(occluder.surface) || shade.by(occluder)
+                ignored(occluder.surface) || rest.shade_by(occluder)
             });
         }
-        shade.pieces()
+        rest.pieces()
     }
 
     /// As [`Self::visible_part`], however many stand in the way.
     pub fn visible_pieces(&self, eye: DVec3, source: &[DVec3], normal: DVec3) -> Pieces {
-        let facet = Facet::new(source, normal);
-        let shaft = Shaft::from_eye(eye, source, facet.plane);
-        let mut shade = Shade::new(Seen::new(eye, facet, self.tolerance), usize::MAX);
-        self.for_each_in(&self.all(), &shaft, |_, occluder| shade.by(occluder));
-        shade.pieces().unwrap_or_default()
+        let source = PlanarPolygon::new(source, normal);
+        let shaft = Shaft::from_eye(eye, source);
+        let seen = VisibleRegion::new(eye, source, self.tolerance);
+        let mut rest = ShadowSubtraction::new(seen, usize::MAX);
+        self.for_each_in(&self.all(), &shaft, |_, occluder| rest.shade_by(occluder));
+        rest.pieces().unwrap_or_default()
     }
 
     /// True if something may stand between `eye` and a part of `source`.
     pub fn may_be_hidden(&self, eye: DVec3, source: &[DVec3], normal: DVec3) -> bool {
-        let shaft = Shaft::from_eye(eye, source, HalfSpace::new(source[0], normal));
+        let shaft = Shaft::from_eye(eye, PlanarPolygon::new(source, normal));
         let mut found = false;
         self.for_each(
             |low, high| shaft.meets_box(low, high, self.tolerance),
@@ -77,8 +88,8 @@ impl Occluders {
 }
 
 /// What is seen, while shadows are taken out of it.
-struct Shade {
-    seen: Seen,
+struct ShadowSubtraction {
+    seen: VisibleRegion,
     /// Still to be taken out.
     shadows: Vec<Shadow>,
     /// Shadows so far.
@@ -87,13 +98,13 @@ struct Shade {
     most: usize,
 }
 
-impl Shade {
-    fn new(seen: Seen, most: usize) -> Self {
+impl ShadowSubtraction {
+    fn new(seen: VisibleRegion, most: usize) -> Self {
         Self { seen, shadows: Vec::new(), count: 0, most }
     }
 
     /// Adds the shadow of an occluder; false if going on is of no use.
-    fn by(&mut self, occluder: &Occluder) -> bool {
+    fn shade_by(&mut self, occluder: &Occluder) -> bool {
         let shadow = self.seen.shadow(occluder);
         self.count += usize::from(shadow.is_some());
         self.shadows.extend(shadow);

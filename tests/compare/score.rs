@@ -4,7 +4,7 @@ use glam::{DVec3, Vec2, Vec3};
 use proptest::prelude::*;
 use radiosity::colour::Rgb;
 use radiosity::compare::{Origin, Point, Reference, Score, Set, score};
-use radiosity::{TriMesh, reconstruct::Part};
+use radiosity::{TriMesh, reconstruct::MeshPart};
 
 const SIDE: usize = 5;
 
@@ -28,7 +28,7 @@ fn square(field: impl Fn(DVec3) -> Rgb) -> TriMesh {
         normals: vec![Vec3::Y; count],
         uvs: vec![Vec2::ZERO; count],
         texture_mean: vec![Rgb::ONE; count],
-        parts: vec![Part { triangles: 0..triangles.len(), ..Part::default() }],
+        parts: vec![MeshPart { triangles: 0..triangles.len(), ..MeshPart::default() }],
         positions,
         triangles,
         ..TriMesh::default()

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use radiosity::Result;
 use radiosity::colour::{Rgb, linear_from_srgb, srgb_from_linear};
 use radiosity::export::{Stamp, load_solved, save};
-use radiosity::reconstruct::{Part, TriMesh};
+use radiosity::reconstruct::{MeshPart, TriMesh};
 use radiosity::scene::{Camera, Node};
 use radiosity::tone::{Exposure, exposure_scale, tone_map, tone_map_picture};
 
@@ -167,9 +167,27 @@ fn vertices_that_no_triangle_uses_are_not_written() {
 fn parts_of_one_material_become_one_part() {
     let mut mesh = small_mesh();
     mesh.parts = vec![
-        Part { name: "a".to_owned(), triangles: 0..1, texture: None, cutoff: None, object: None },
-        Part { name: "b".to_owned(), triangles: 1..2, texture: None, cutoff: None, object: None },
-        Part { name: "a".to_owned(), triangles: 2..3, texture: None, cutoff: None, object: None },
+        MeshPart {
+            name: "a".to_owned(),
+            triangles: 0..1,
+            texture: None,
+            cutoff: None,
+            object: None,
+        },
+        MeshPart {
+            name: "b".to_owned(),
+            triangles: 1..2,
+            texture: None,
+            cutoff: None,
+            object: None,
+        },
+        MeshPart {
+            name: "a".to_owned(),
+            triangles: 2..3,
+            texture: None,
+            cutoff: None,
+            object: None,
+        },
     ];
     let (back, _) = round_trip(&mesh, &Stamp::default()).unwrap();
     let parts: Vec<_> =
@@ -285,7 +303,7 @@ fn objects_hierarchy_and_cameras_come_back() {
     );
     assert_eq!((root.meshes.len(), root.materials.len(), root.scenes[0].nodes.len()), (2, 2, 2));
     let (back, stamp) = round_trip(&mesh, &Stamp::default()).unwrap();
-    let object = |part: &Part| back.objects[part.object.unwrap() as usize].clone();
+    let object = |part: &MeshPart| back.objects[part.object.unwrap() as usize].clone();
     let found: Vec<_> = back.parts.iter().map(|part| (part.name.as_str(), object(part))).collect();
     assert_eq!(found, [("bare floor", "table".to_owned()), ("carpet", "rug".to_owned())]);
     let [camera] = &back.cameras[..] else { panic!("{:?}", back.cameras) };

@@ -7,7 +7,7 @@ use glam::{DVec3, Vec2, Vec3};
 use proptest::prelude::*;
 use radiosity::colour::Rgb;
 use radiosity::export::{Stamp, save};
-use radiosity::reconstruct::{Part, TriMesh};
+use radiosity::reconstruct::{MeshPart, TriMesh};
 use radiosity::scene::{Sampler, Texture, Wrap};
 
 /// Two triangles on a picture and one beside it; vertex 4 belongs to no triangle.
@@ -30,14 +30,14 @@ pub(crate) fn small_mesh() -> TriMesh {
         texture_mean: vec![Rgb::new(0.5, 0.25, 0.0); 6],
         triangles: vec![[0, 1, 2], [0, 2, 3], [3, 2, 5]],
         parts: vec![
-            Part {
+            MeshPart {
                 name: "carpet".to_owned(),
                 triangles: 0..2,
                 texture: Some(0),
                 cutoff: Some(0.25),
                 object: None,
             },
-            Part {
+            MeshPart {
                 name: "bare floor".to_owned(),
                 triangles: 2..3,
                 texture: None,
@@ -108,7 +108,7 @@ fn assemble(
     for &(name, textured, count) in parts {
         let triangles = start..start + count;
         start += count;
-        mesh.parts.push(Part {
+        mesh.parts.push(MeshPart {
             name: name.to_owned(),
             triangles,
             texture: textured.then_some(0),

@@ -8,9 +8,9 @@ use std::path::Path;
 use glam::DVec3;
 use radiosity::form_factor::contour::point_to_polygon;
 use radiosity::form_factor::pair::{exchange, visible_exchange};
-use radiosity::form_factor::{Method, assemble, factors_at};
+use radiosity::form_factor::{FormFactorMethod, assemble, factors_at};
 use radiosity::mesh::{Mesh, Patch};
-use radiosity::visibility::{Facet, Occluders};
+use radiosity::visibility::{Occluders, PlanarPolygon, SurfacePoint};
 use radiosity::{Length, Settings, faces_of};
 use serde::Deserialize;
 
@@ -79,8 +79,8 @@ fn suite() -> Suite {
     serde_json::from_str(include_str!("cases.json")).unwrap()
 }
 
-fn facet(corners: &[DVec3]) -> Facet<'_> {
-    Facet::new(corners, normal(corners))
+fn facet(corners: &[DVec3]) -> PlanarPolygon<'_> {
+    PlanarPolygon::new(corners, normal(corners))
 }
 
 fn normal(corners: &[DVec3]) -> DVec3 {
@@ -125,15 +125,17 @@ fn patches_of(polygons: &[&Corners]) -> (Vec<Patch>, Occluders) {
 }
 
 /// From the receiver's centre by another method; the source is the first patch.
-fn from_centre(case: &Case, method: Method) -> f64 {
+fn from_centre(case: &Case, method: FormFactorMethod) -> f64 {
     let polygons: Vec<&Corners> = std::iter::once(&case.source).chain(&case.blockers).collect();
     let (patches, occluders) = patches_of(&polygons);
     let place = match &case.receiver {
         Receiver::Polygon { polygon } => {
             let receiver: Corners = polygon.iter().copied().map(DVec3::from).collect();
-            (centroid(&receiver), normal(&receiver))
+            SurfacePoint::new(centroid(&receiver), normal(&receiver))
         }
-        Receiver::Point { point, normal } => (DVec3::from(*point), DVec3::from(*normal)),
+        Receiver::Point { point, normal } => {
+            SurfacePoint::new(DVec3::from(*point), DVec3::from(*normal))
+        }
     };
     let surface = patches[0].surface;
     let factors = factors_at(&patches, &occluders, method, place);
@@ -170,7 +172,7 @@ fn every_case_has_its_value_by_every_method() {
         }
         write!(table, "| {} | {:.9} | {contour:+.1e} |", case.id, case.value).unwrap();
         if let Some(centre) = case.centre_value {
-            let methods = [Method::Hemicube(512), Method::Rays(1_000_000)];
+            let methods = [FormFactorMethod::Hemicube(512), FormFactorMethod::Rays(1_000_000)];
             let errors = methods.map(|method| from_centre(&case, method) - centre);
             for (error, name) in errors.iter().zip(["hemicube", "rays"]) {
                 if error.abs() > allowed(&case) {
@@ -208,8 +210,11 @@ fn enclosures_have_their_matrices_by_every_method() {
     for enclosure in suite().enclosures {
         let (patches, occluders) = patches_of(&enclosure.patches.iter().collect::<Vec<_>>());
         assert_eq!(patches.len(), enclosure.patches.len(), "{}: whole polygons", enclosure.id);
-        let methods =
-            [(Method::Contour, 1e-4), (Method::Hemicube(128), 0.02), (Method::Rays(4096), 0.02)];
+        let methods = [
+            (FormFactorMethod::Contour, 1e-4),
+            (FormFactorMethod::Hemicube(128), 0.02),
+            (FormFactorMethod::Rays(4096), 0.02),
+        ];
         for (method, tolerance) in methods {
             let go_on = |_| ControlFlow::Continue(());
             let factors = assemble(&patches, &occluders, method, go_on).factors;

@@ -12,9 +12,9 @@ use glam::DVec3;
 use proptest::prelude::*;
 use radiosity::direct::Lamps;
 use radiosity::form_factor::contour::point_to_polygon;
-use radiosity::form_factor::hemicube::{DeltaFactors, Hemicube, Sight, Targets};
+use radiosity::form_factor::hemicube::{DeltaFactors, Hemicube, HemicubeScene, VisiblePatch};
 use radiosity::mesh::Mesh;
-use radiosity::visibility::{HalfSpace, Occluders};
+use radiosity::visibility::{HalfSpace, Occluders, SurfacePoint};
 use radiosity::{Scene, surfaces_of};
 
 fn point(range: f64) -> impl Strategy<Value = DVec3> {
@@ -101,7 +101,7 @@ fn what_a_point_sees_of_a_closed_room_adds_up_to_one() {
     let mesh = Mesh::new(&surfaces, &coarse());
     let occluders = Occluders::new(&surfaces);
     let delta = DeltaFactors::new(128);
-    let targets = Targets::new(&mesh.patches);
+    let targets = HemicubeScene::new(&mesh.patches);
     let mut hemicube = Hemicube::new(&delta, &targets, &occluders);
     for k in 0..40 {
         let share = |step: f64| 0.05 + 0.9 * (f64::from(k) * step).fract();
@@ -109,8 +109,8 @@ fn what_a_point_sees_of_a_closed_room_adds_up_to_one() {
         if blocks()[0].covers(eye, -0.05) {
             continue;
         }
-        let hemicube = hemicube.look((eye, DVec3::Y), f64::from(k));
-        let sights: Vec<Sight> = hemicube.sights().collect();
+        let hemicube = hemicube.look(SurfacePoint::new(eye, DVec3::Y), f64::from(k));
+        let sights: Vec<VisiblePatch> = hemicube.visible_patches().collect();
         let factor =
             |patch: radiosity::mesh::PatchId| point_to_polygon(eye, DVec3::Y, &mesh[patch].corners);
         let exact: f64 = sights.iter().map(|s| s.visible * factor(s.patch)).sum();
@@ -253,11 +253,11 @@ fn cells_of_a_hemicube_add_up_to_form_factors_however_it_is_turned() {
     let mesh = Mesh::new(&surfaces, &coarse());
     let occluders = Occluders::new(&surfaces);
     let delta = DeltaFactors::new(64);
-    let targets = Targets::new(&mesh.patches);
+    let targets = HemicubeScene::new(&mesh.patches);
     let mut hemicube = Hemicube::new(&delta, &targets, &occluders);
     let eye = DVec3::new(1.3, 0.0, 2.2);
     for turn in [0.0, 0.3, 0.9, 1.5] {
-        for sight in hemicube.look((eye, DVec3::Y), turn).sights() {
+        for sight in hemicube.look(SurfacePoint::new(eye, DVec3::Y), turn).visible_patches() {
             let patch = &mesh[sight.patch];
             let exact = sight.visible * point_to_polygon(eye, DVec3::Y, &patch.corners);
             assert!((exact - sight.delta).abs() < 0.01, "{exact} for {sight:?}");

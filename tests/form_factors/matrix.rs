@@ -6,9 +6,9 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 use proptest::prelude::*;
 use radiosity::form_factor::pair::{exchange, visible_exchange};
-use radiosity::form_factor::{Assembled, FormFactors, Method, assemble};
+use radiosity::form_factor::{Assembled, FormFactorMethod, FormFactors, assemble};
 use radiosity::mesh::Mesh;
-use radiosity::visibility::{Facet, HalfSpace, Occluders};
+use radiosity::visibility::{HalfSpace, Occluders, PlanarPolygon};
 use radiosity::{Length, Scene, Settings, surfaces_of};
 
 use crate::common::{Block, Stage, furnished_room};
@@ -20,7 +20,7 @@ fn room() -> Scene {
     ])
 }
 
-fn matrix(scene: &Scene, size: f64, method: Method) -> Assembled {
+fn matrix(scene: &Scene, size: f64, method: FormFactorMethod) -> Assembled {
     let surfaces = surfaces_of(scene);
     let settings = Settings { patch_size: Length::Metres(size), ..Settings::draft() };
     let patches = Mesh::new(&surfaces, &settings).patches;
@@ -35,8 +35,11 @@ fn closure(assembled: &Assembled) -> f64 {
 
 #[test]
 fn rows_of_a_closed_room_sum_to_one_by_every_method() {
-    let methods =
-        [(Method::Contour, 4e-4), (Method::Hemicube(256), 0.03), (Method::Rays(16_384), 0.03)];
+    let methods = [
+        (FormFactorMethod::Contour, 4e-4),
+        (FormFactorMethod::Hemicube(256), 0.03),
+        (FormFactorMethod::Rays(16_384), 0.03),
+    ];
     for (method, tolerance) in methods {
         let assembled = matrix(&room(), 1.0, method);
         let (closure, n) = (closure(&assembled), assembled.factors.len());
@@ -64,7 +67,7 @@ fn slivers_under_boxes_see_the_box_alone_and_those_beside_screens_one_side() {
     for width in [1e-3, 1e-4] {
         let scene = room_with_slivers(width);
         let tolerance = surfaces_of(&scene).tolerance;
-        let Assembled { factors, on_backs, .. } = matrix(&scene, 1.0, Method::Contour);
+        let Assembled { factors, on_backs, .. } = matrix(&scene, 1.0, FormFactorMethod::Contour);
         let is_sliver = |area: f64| area < 2.0 * width * width;
         assert_eq!(factors.areas().iter().filter(|&&area| is_sliver(area)).count(), 3);
         for (i, (sum, backs)) in factors.row_sums().into_iter().zip(on_backs).enumerate() {
@@ -80,7 +83,7 @@ fn slivers_under_boxes_see_the_box_alone_and_those_beside_screens_one_side() {
 
 #[test]
 fn an_enforced_matrix_is_reciprocal_and_closed_and_within_bounds() {
-    let Assembled { factors, on_backs, .. } = matrix(&room(), 1.2, Method::Hemicube(64));
+    let Assembled { factors, on_backs, .. } = matrix(&room(), 1.2, FormFactorMethod::Hemicube(64));
     let sums: Vec<f64> = on_backs.iter().map(|backs| 1.0 - backs).collect();
     let enforced = factors.enforced(&sums);
     assert!(enforced.reciprocity() < 1e-9, "{}", enforced.reciprocity());
@@ -103,8 +106,9 @@ fn what_is_interrupted_has_whole_rows_and_empty_ones() {
     let occluders = Occluders::new(&surfaces);
     let stop =
         |done: f64| if done > 0.2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-    let part = assemble(&patches, &occluders, Method::Contour, stop);
-    let whole = assemble(&patches, &occluders, Method::Contour, |_| ControlFlow::Continue(()));
+    let part = assemble(&patches, &occluders, FormFactorMethod::Contour, stop);
+    let whole =
+        assemble(&patches, &occluders, FormFactorMethod::Contour, |_| ControlFlow::Continue(()));
     assert!((1..patches.len()).contains(&part.rows), "{} rows", part.rows);
     for i in 0..patches.len() {
         let row = |factors: &FormFactors| factors.row(i).collect::<Vec<_>>();
@@ -115,7 +119,7 @@ fn what_is_interrupted_has_whole_rows_and_empty_ones() {
 
 #[test]
 fn grouped_patches_exchange_what_their_parts_do() {
-    let factors = matrix(&room(), 1.5, Method::Contour).factors;
+    let factors = matrix(&room(), 1.5, FormFactorMethod::Contour).factors;
     let group: Vec<usize> = (0..factors.len()).map(|i| i % 7).collect();
     let grouped = factors.grouped(&group, 7);
     let area: f64 = factors.areas().iter().sum();
@@ -136,9 +140,9 @@ fn triangle(centre: DVec3) -> impl Strategy<Value = [DVec3; 3]> {
         .prop_filter("slender", |[a, b, c]| (b - a).cross(c - a).length() > 0.3)
 }
 
-fn facet<'a>(corners: &'a [DVec3], towards: DVec3) -> Facet<'a> {
+fn facet<'a>(corners: &'a [DVec3], towards: DVec3) -> PlanarPolygon<'a> {
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
-    Facet::new(corners, normal * normal.dot(towards - corners[0]).signum())
+    PlanarPolygon::new(corners, normal * normal.dot(towards - corners[0]).signum())
 }
 
 #[test]
@@ -179,7 +183,7 @@ proptest! {
         let side = HalfSpace::new(DVec3::Z * 1.7, normal.normalize_or(DVec3::X));
         let parts = [side.clip(&b), side.complement().clip(&b)];
         let whole = parts.iter().filter(|part| !part.is_empty());
-        let sum: f64 = whole.map(|p| exchange(first, Facet { corners: p, ..second })).sum();
+        let sum: f64 = whole.map(|p| exchange(first, PlanarPolygon { corners: p, ..second })).sum();
         prop_assert!((there - sum).abs() < 2e-6 * there + 1e-9, "{there} whole, {sum} in parts");
     }
 

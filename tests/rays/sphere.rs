@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 use radiosity::form_factor::contour::point_to_polygon;
-use radiosity::form_factor::hemicube::{self, DeltaFactors, Hemicube, Targets};
+use radiosity::form_factor::hemicube::{self, DeltaFactors, Hemicube, HemicubeScene};
 use radiosity::form_factor::rays::{Rays, Sphere};
 use radiosity::mesh::{Mesh, Patch};
 use radiosity::surfaces_of;
 use radiosity::visibility::packet::RAYS;
-use radiosity::visibility::{Occluders, PatchHierarchy};
+use radiosity::visibility::{Occluders, PatchHierarchy, SurfacePoint};
 
 use crate::common::furnished_room;
 use crate::patches::{blocks, mesh_of};
@@ -91,7 +91,7 @@ fn nothing_escapes_from_a_closed_room() {
     let sphere = Sphere::new(30_000);
     let mut rays = Rays::new(&sphere, &hierarchy);
     for (k, eye) in eyes().enumerate() {
-        let sights = rays.look(&mesh.patches, (eye, DVec3::Y), k as f64);
+        let sights = rays.look(&mesh.patches, SurfacePoint::new(eye, DVec3::Y), k as f64);
         assert_eq!(rays.escaping(), 0.0, "at {eye}");
         let sum: f64 = sights.iter().map(|sight| sight.delta).sum();
         assert!((sum - 1.0).abs() < 1e-9, "{sum} at {eye}");
@@ -107,15 +107,15 @@ fn rays_see_what_a_hemicube_sees() {
     let occluders = Occluders::new(&surfaces);
     let (hierarchy, sphere) = (PatchHierarchy::new(&mesh.patches), Sphere::new(200_000));
     let delta = DeltaFactors::new(256);
-    let targets = Targets::new(&mesh.patches);
+    let targets = HemicubeScene::new(&mesh.patches);
     let mut hemicube = Hemicube::new(&delta, &targets, &occluders);
     let mut rays = Rays::new(&sphere, &hierarchy);
     for eye in eyes().take(4) {
         let mut factors = vec![0.0; mesh.patches.len()];
-        for sight in hemicube.look((eye, DVec3::Y), 0.2).sights() {
+        for sight in hemicube.look(SurfacePoint::new(eye, DVec3::Y), 0.2).visible_patches() {
             factors[sight.patch.index()] = sight.delta;
         }
-        for sight in rays.look(&mesh.patches, (eye, DVec3::Y), 0.7) {
+        for sight in rays.look(&mesh.patches, SurfacePoint::new(eye, DVec3::Y), 0.7) {
             factors[sight.patch.index()] -= sight.delta;
         }
         let worst = factors.iter().fold(0.0, |worst: f64, f| worst.max(f.abs()));
@@ -143,13 +143,13 @@ fn a_million_rays_err_a_third_of_a_plain_hemicube_at_most() {
     let occluders = Occluders::new(&surfaces_of(&room.scene));
     let (hierarchy, sphere) = (PatchHierarchy::new(&mesh.patches), Sphere::new(1_000_000));
     let delta = DeltaFactors::new(256);
-    let targets = Targets::new(&mesh.patches);
+    let targets = HemicubeScene::new(&mesh.patches);
     let mut hemicube = Hemicube::new(&delta, &targets, &occluders);
     let mut rays = Rays::new(&sphere, &hierarchy);
     let (mut by_cells, mut by_rays) = (0.0, 0.0);
     for (k, eye) in eyes().take(3).enumerate() {
-        let from = (eye, DVec3::Y);
-        let cells = hemicube.look(from, k as f64).sights();
+        let from = SurfacePoint::new(eye, DVec3::Y);
+        let cells = hemicube.look(from, k as f64).visible_patches();
         by_cells += error_in_room(&mesh, eye, cells.map(|s| (s.patch.index(), s.delta)));
         let sights = rays.look(&mesh.patches, from, k as f64).into_iter();
         by_rays += error_in_room(&mesh, eye, sights.map(|s| (s.patch.index(), s.delta)));
@@ -165,17 +165,21 @@ fn a_hemicube_of_fewer_cells_than_patches_looks_by_rays() {
     let coarse = mesh_of(&scene, 6.0);
     let (occluders, delta) = (Occluders::new(&surfaces_of(&scene)), DeltaFactors::new(32));
     assert!(mesh.patches.len() > 4 * 3 * 32 * 32, "only {} patches", mesh.patches.len());
-    let (fine, rough) = (Targets::new(&mesh.patches), Targets::new(&coarse.patches));
-    let by_surface = |mesh: &Mesh, sights: &[hemicube::Sight]| {
+    let (fine, rough) = (HemicubeScene::new(&mesh.patches), HemicubeScene::new(&coarse.patches));
+    let by_surface = |mesh: &Mesh, sights: &[hemicube::VisiblePatch]| {
         let mut factors = vec![0.0; 1 + mesh.patches.last().map_or(0, |p| p.surface as usize)];
         sights.iter().for_each(|s| factors[mesh[s.patch].surface as usize] += s.delta);
         factors
     };
     for eye in eyes().take(4) {
         let mut by_rays = Hemicube::new(&delta, &fine, &occluders);
-        let seen = by_rays.look((eye, DVec3::Y), 0.3).sights().collect::<Vec<_>>();
+        let seen = by_rays
+            .look(SurfacePoint::new(eye, DVec3::Y), 0.3)
+            .visible_patches()
+            .collect::<Vec<_>>();
         let mut drawn = Hemicube::new(&delta, &rough, &occluders);
-        let expected = drawn.look((eye, DVec3::Y), 0.3).sights().collect::<Vec<_>>();
+        let expected =
+            drawn.look(SurfacePoint::new(eye, DVec3::Y), 0.3).visible_patches().collect::<Vec<_>>();
         assert_eq!(by_rays.escaping(), 0.0, "at {eye}");
         assert!(seen.is_sorted_by_key(|sight| sight.patch) && seen.iter().all(|s| s.front));
         // Cells do not know how surfaces are cut into patches.

@@ -12,7 +12,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use radiosity::colour::{Rgb, linear_from_srgb, luminance};
-use radiosity::reconstruct::Part;
+use radiosity::reconstruct::MeshPart;
 use radiosity::render::{Display, Picture, RenderOptions, View, automatic_camera, render, save};
 use radiosity::scene::{Camera, Light, Sampler, Sky, Texture, Wrap};
 use radiosity::{Error, TriMesh};
@@ -39,7 +39,7 @@ fn add_grid(mesh: &mut TriMesh, [origin, u, v]: [DVec3; 3], cells: u32, radiosit
         }
     }
     let triangles = first_triangle..mesh.triangles.len();
-    mesh.parts.push(Part {
+    mesh.parts.push(MeshPart {
         name: "grid".to_owned(),
         triangles,
         texture: None,

@@ -16,7 +16,7 @@ use super::semantics::{LIGHT, RADIOSITY, TEXTURE_MEAN};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
 use crate::export::stamp::Stamp;
-use crate::reconstruct::{LightShare, Part, TriMesh};
+use crate::reconstruct::{LightShare, MeshPart, TriMesh};
 use crate::scene::{Texture, decode, sampler_of};
 use crate::surface::LightGroup;
 
@@ -97,7 +97,7 @@ fn append(
     let start = mesh.triangles.len();
     mesh.triangles.extend(triangles.iter().map(|corners| corners.map(|corner| offset + corner)));
     let like = material(arrays, primitive)?;
-    mesh.parts.push(Part { triangles: start..mesh.triangles.len(), object, ..like });
+    mesh.parts.push(MeshPart { triangles: start..mesh.triangles.len(), object, ..like });
     Ok(())
 }
 
@@ -147,9 +147,9 @@ fn append_vertices(
 }
 
 /// A part without triangles that has the name of a primitive's material, its texture and its holes.
-fn material(arrays: &GlbArrays, primitive: &Primitive) -> ReadResult<Part> {
+fn material(arrays: &GlbArrays, primitive: &Primitive) -> ReadResult<MeshPart> {
     let Some(index) = primitive.material else {
-        return Ok(Part::default());
+        return Ok(MeshPart::default());
     };
     let materials = &arrays.root.materials;
     let material = materials.get(index.value()).ok_or("a primitive's material is missing")?;
@@ -160,11 +160,11 @@ fn material(arrays: &GlbArrays, primitive: &Primitive) -> ReadResult<Part> {
     }
     let is_cut_out = material.alpha_mode == Checked::Valid(AlphaMode::Mask);
     let cutoff = material.alpha_cutoff.map_or(0.5, |cutoff| f64::from(cutoff.0));
-    Ok(Part {
+    Ok(MeshPart {
         name: material.name.clone().unwrap_or_default(),
         texture: texture.map(|texture| texture as u32),
         cutoff: is_cut_out.then_some(cutoff),
-        ..Part::default()
+        ..MeshPart::default()
     })
 }
 

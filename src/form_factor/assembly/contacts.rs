@@ -8,8 +8,8 @@ use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use rayon::prelude::*;
 
-use super::Row;
-use crate::form_factor::hemicube::frame;
+use super::row::SparseRow;
+use crate::form_factor::hemicube::axes;
 use crate::form_factor::rays::Sphere;
 use crate::mesh::Patch;
 use crate::scene::area_vector;
@@ -27,7 +27,7 @@ const COVERED: f64 = 0.999;
 #[derive(Debug)]
 pub(super) struct Contacts {
     /// By patch: those face to face with it.
-    face_to_face: Vec<Vec<Contact>>,
+    face_to_face: Vec<Vec<TouchingPatch>>,
     /// By patch: true if its back is behind the front of another, or has a patch of its own.
     backed: Vec<bool>,
     /// By patch: true if those face to face with it leave nothing of it.
@@ -36,7 +36,7 @@ pub(super) struct Contacts {
 
 /// A patch that lies on another.
 #[derive(Debug)]
-struct Contact {
+struct TouchingPatch {
     other: u32,
     normal: DVec3,
     /// Where both are.
@@ -48,22 +48,25 @@ impl Contacts {
         let tolerance = occluders.tolerance();
         let boxes = boxes(patches, tolerance);
         let tree = hierarchy(&boxes);
-        let touching = |i: usize| -> Vec<Contact> {
+        let touching = |i: usize| -> Vec<TouchingPatch> {
             let near = near(&tree, boxes[i]);
-            let contact = |j: u32| Contact::of(&patches[i], &patches[j as usize], j, tolerance);
+            let contact =
+                |j: u32| TouchingPatch::of(&patches[i], &patches[j as usize], j, tolerance);
             near.into_iter().filter_map(contact).collect()
         };
-        let mut all: Vec<Vec<Contact>> = (0..patches.len()).into_par_iter().map(touching).collect();
-        let covered_share = |(patch, contacts): (&Patch, &Vec<Contact>)| {
-            contacts.iter().map(Contact::area).sum::<f64>() / patch.area
+        let mut all: Vec<Vec<TouchingPatch>> =
+            (0..patches.len()).into_par_iter().map(touching).collect();
+        let covered_share = |(patch, contacts): (&Patch, &Vec<TouchingPatch>)| {
+            contacts.iter().map(TouchingPatch::area).sum::<f64>() / patch.area
         };
-        let backed = |both: (&Patch, &Vec<Contact>)| both.0.two_sided || covered_share(both) > 0.5;
+        let backed =
+            |both: (&Patch, &Vec<TouchingPatch>)| both.0.two_sided || covered_share(both) > 0.5;
         let backed = patches.iter().zip(&all).map(backed).collect();
         if all.iter().any(|contacts| !contacts.is_empty()) {
             let (hierarchy, sphere) = (PatchHierarchy::new(patches), Sphere::new(PROBES));
             let is_buried = |place: DVec3, patch: &Patch| {
-                let frame = frame(patch.normal, 0.0).transpose();
-                let met = sphere.directions().filter_map(|d| hierarchy.first(place, frame * d));
+                let axes = axes(patch.normal, 0.0).transpose();
+                let met = sphere.directions().filter_map(|d| hierarchy.first(place, axes * d));
                 let backs = met.filter(|(met, _)| {
                     let met = &patches[met.index()];
                     (place - met.corners[0]).dot(met.normal) < 0.0
@@ -83,7 +86,7 @@ impl Contacts {
     }
 
     /// Exchanges, m², of patch `i` with those after it that it touches.
-    pub(super) fn row(&self, i: usize) -> Row {
+    pub(super) fn row(&self, i: usize) -> SparseRow {
         let after = self.face_to_face[i].iter().filter(|contact| contact.other as usize > i);
         after.map(|contact| (contact.other, contact.area())).collect()
     }
@@ -104,7 +107,7 @@ impl Contacts {
     }
 }
 
-impl Contact {
+impl TouchingPatch {
     fn of(patch: &Patch, other: &Patch, index: u32, tolerance: f64) -> Option<Self> {
         let height = (other.corners[0] - patch.corners[0]).dot(patch.normal).abs();
         let faces = height <= tolerance && other.normal.dot(patch.normal) < -1.0 + 1e-9;

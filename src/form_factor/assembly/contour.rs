@@ -3,10 +3,10 @@
 use glam::DVec3;
 
 use super::contacts::Contacts;
-use super::{Row, facet};
+use super::row::SparseRow;
 use crate::form_factor::pair::visible_exchange;
 use crate::mesh::Patch;
-use crate::visibility::{Facet, Occluders};
+use crate::visibility::{Occluders, PlanarPolygon};
 
 /// Error of an exchange, as a share of the smaller patch's area.
 ///
@@ -37,13 +37,14 @@ impl<'a> Exchanges<'a> {
     }
 
     /// Exchanges, m², of patch `i` with those after it that it does not touch.
-    pub(super) fn row(&self, i: usize) -> Row {
+    pub(super) fn row(&self, i: usize) -> SparseRow {
         if self.contacts.is_covered(i) {
-            return Row::new();
+            return SparseRow::new();
         }
         let others = (i + 1..self.patches.len()).filter(|&j| !self.contacts.is_covered(j));
-        let exchange = |j: usize| (j as u32, self.with(i, j, facet(&self.patches[j])));
-        let mut row: Row = others.map(exchange).filter(|&(_, exchange)| exchange > 0.0).collect();
+        let exchange = |j: usize| (j as u32, self.with(i, j, PlanarPolygon::of(&self.patches[j])));
+        let mut row: SparseRow =
+            others.map(exchange).filter(|&(_, exchange)| exchange > 0.0).collect();
         row.shrink_to_fit();
         row
     }
@@ -60,22 +61,22 @@ impl<'a> Exchanges<'a> {
             .filter(|(j, _)| *j != i && !self.contacts.is_backed(*j));
         let exchange = |(j, patch): (usize, &Patch)| {
             let corners: Vec<DVec3> = patch.corners.iter().rev().copied().collect();
-            self.with(i, j, Facet::new(&corners, -patch.normal))
+            self.with(i, j, PlanarPolygon::new(&corners, -patch.normal))
         };
         others.map(exchange).sum::<f64>() / self.patches[i].area
     }
 
     /// Exchange, m², of patch `i` with a side of patch `j`.
-    fn with(&self, i: usize, j: usize, side: Facet<'_>) -> f64 {
-        let this = facet(&self.patches[i]);
+    fn with(&self, i: usize, j: usize, side: PlanarPolygon<'_>) -> f64 {
+        let this = PlanarPolygon::of(&self.patches[i]);
         if self.is_behind(i, side) || self.is_behind(j, this) {
             return 0.0;
         }
         visible_exchange(self.occluders, this, side, TOLERANCE)
     }
 
-    fn is_behind(&self, i: usize, facet: Facet<'_>) -> bool {
+    fn is_behind(&self, i: usize, polygon: PlanarPolygon<'_>) -> bool {
         let (centre, radius) = self.spheres[i];
-        facet.plane.depth(centre) <= -radius
+        polygon.plane.depth(centre) <= -radius
     }
 }

@@ -2,11 +2,12 @@
 
 use glam::DVec3;
 
-use super::Row;
 use super::contacts::Contacts;
+use super::row::SparseRow;
 use crate::form_factor::hemicube;
 use crate::form_factor::pair::{place_in, quadrilaterals};
 use crate::mesh::Patch;
+use crate::visibility::SurfacePoint;
 
 /// A patch whose view changes by more than this share of all light between one set of points and the
 /// next is looked from by four times as many.
@@ -17,7 +18,7 @@ const MOST_LEVELS: u32 = 4;
 
 /// Something that a point sees.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Seen {
+pub(super) struct SeenPatch {
     pub(super) patch: u32,
     /// Form factor from the point to what it sees of the patch.
     pub(super) factor: f64,
@@ -25,24 +26,25 @@ pub(super) struct Seen {
     pub(super) clear: bool,
 }
 
-/// A way to look from a point with a unit normal, the view turned about it by an angle, radians.
-pub(super) trait Look {
+/// A way to look from a point along its normal, the view turned about it by an angle, radians.
+pub(super) trait PatchVisibility {
     /// The patches whose fronts are seen, ascending.
-    fn look(&mut self, eye: DVec3, normal: DVec3, turn: f64) -> Vec<Seen>;
+    fn seen_from(&mut self, eye: SurfacePoint, turn: f64) -> Vec<SeenPatch>;
 }
 
 /// Form factors from a patch: means over points that are added until the row keeps still.
 ///
 /// What is clear from everywhere will be computed exactly and has no say.
 pub(super) fn row(
-    (patches, contacts): (&[Patch], &Contacts),
+    patches: &[Patch],
+    contacts: &Contacts,
     index: usize,
-    look: &mut impl Look,
-) -> Row {
+    view: &mut impl PatchVisibility,
+) -> SparseRow {
     let mut from_points = |level: u32| {
         let points = points(&patches[index], 1 << level);
         let free = points.into_iter().filter(|(eye, _)| !contacts.cover(index, *eye));
-        Sum::from_points(free, (patches, index), look)
+        Sum::from_points(free, patches, index, view)
     };
     let mut before = from_points(0);
     for level in 1..=MOST_LEVELS {
@@ -65,12 +67,14 @@ struct Sum {
 impl Sum {
     fn from_points(
         points: impl Iterator<Item = (DVec3, f64)>,
-        (patches, index): (&[Patch], usize),
-        look: &mut impl Look,
+        patches: &[Patch],
+        index: usize,
+        view: &mut impl PatchVisibility,
     ) -> Self {
         let mut sum = Self { factors: vec![0.0; patches.len()], clear: vec![true; patches.len()] };
         for (k, (eye, weight)) in points.enumerate() {
-            for seen in look.look(eye, patches[index].normal, turn(index + 7 * k)) {
+            let eye = SurfacePoint::new(eye, patches[index].normal);
+            for seen in view.seen_from(eye, turn(index + 7 * k)) {
                 sum.factors[seen.patch as usize] += weight * seen.factor;
                 sum.clear[seen.patch as usize] &= seen.clear;
             }
@@ -86,7 +90,7 @@ impl Sum {
         0.5 * partly.map(|((now, then), _)| (now - then).abs()).sum::<f64>()
     }
 
-    fn into_row(self) -> Row {
+    fn into_row(self) -> SparseRow {
         let factors = self.factors.into_iter().enumerate();
         factors.filter(|&(_, f)| f > 0.0).map(|(j, factor)| (j as u32, factor)).collect()
     }

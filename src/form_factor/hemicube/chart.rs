@@ -14,7 +14,7 @@ pub(super) const STRAIGHT: f64 = 1e-6;
 /// Halving opposite edges again and again draws the lines of the bilinear coordinates (s, t), with
 /// u = s + g s t and v = t + h s t in the oblique coordinates (u, v) along two edges.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Chart<V> {
+pub(super) struct BilinearChart<V> {
     /// Where the coordinates are zero, m.
     pub(super) origin: V,
     /// Gradients of u and v, 1 / m.
@@ -23,7 +23,7 @@ pub(super) struct Chart<V> {
     pub(super) bend: [f32; 2],
 }
 
-impl Chart<DVec2> {
+impl BilinearChart<DVec2> {
     /// A chart of a triangle or a quadrilateral; begins where two edges span the most.
     pub(super) fn new(outline: &[DVec2]) -> Self {
         let n = outline.len();
@@ -68,12 +68,12 @@ impl Chart<DVec2> {
     }
 
     /// The same in space, for a patch with this outline on its surface's plane.
-    pub(super) fn in_space(&self, patch: &Patch, outline: &[DVec2]) -> Chart<DVec3> {
+    pub(super) fn in_space(&self, patch: &Patch, outline: &[DVec2]) -> BilinearChart<DVec3> {
         let flat = outline[1] - outline[0];
         let along = (patch.corners[1] - patch.corners[0]) / flat.length_squared();
         let across = patch.normal.cross(along);
         let lift = |p: DVec2| along * flat.dot(p) + across * flat.perp_dot(p);
-        Chart {
+        BilinearChart {
             origin: patch.corners[0] + lift(self.origin - outline[0]),
             axes: self.axes.map(lift),
             bend: self.bend,
@@ -112,7 +112,7 @@ mod tests {
             [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 2.0]],
         ];
         for outline in outlines.map(|corners| corners.map(DVec2::from)) {
-            let chart = Chart::new(&outline);
+            let chart = BilinearChart::new(&outline);
             let corners = outline.map(|corner| chart.place(corner));
             let along = |outline: [DVec2; 4], s: f64, t: f64| {
                 outline[0].lerp(outline[1], s).lerp(outline[3].lerp(outline[2], s), t)

@@ -1,57 +1,62 @@
 //! Corners in the frame of a hemicube, and what of a polygon each of its five faces sees.
 
-use glam::{DMat3, DVec3, Vec3};
+use std::ops::Range;
+
+use glam::Vec3;
 use smallvec::SmallVec;
 
+use super::frame::Frame;
+
 /// A part of a convex polygon, in the coordinates of a face.
-pub(super) type Part = SmallVec<[Vec3; 16]>;
+pub(super) type ClippedPolygon = SmallVec<[Vec3; 16]>;
 
 /// Corners of convex polygons in the frame of a hemicube whose eye is the origin and whose normal is +z.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Corners {
+pub(super) struct LocalCorners {
     at: [Vec<f32>; 3],
     /// On which sides of the planes between the faces they are: bits that are set where z - x,
     /// z + x, z - y, z + y, x - y, x + y and z are negative.
     sides: Vec<u32>,
 }
 
-/// Bit of [`Corners::sides`] set below the horizon.
+/// Bit of [`LocalCorners::sides`] set below the horizon.
 const BELOW: u32 = 1 << 6;
 
 /// A face of the hemicube, as a view with coordinates (a, b, w) of depth w.
 #[derive(Debug)]
-pub(super) struct Face {
+pub(super) struct HemicubeFace {
     /// Which of x, y, z are a, b and w.
     pub(super) axes: [usize; 3],
     /// Whether w looks along or against its axis.
     pub(super) sign: f32,
     /// Smallest b / w: -1 for the top, 0 for the half faces.
     pub(super) lowest: f32,
-    /// Bits of [`Corners::sides`] that are clear, and that are set, for what the face sees.
+    /// Bits of [`LocalCorners::sides`] that are clear, and that are set, for what the face sees.
     clear: u32,
     set: u32,
 }
 
-pub(super) const FACES: [Face; 5] = [
-    Face { axes: [0, 1, 2], sign: 1.0, lowest: -1.0, clear: 0b000_1111, set: 0 },
-    Face { axes: [1, 2, 0], sign: 1.0, lowest: 0.0, clear: 0b111_0000, set: 0b000_0001 },
-    Face { axes: [1, 2, 0], sign: -1.0, lowest: 0.0, clear: 0b100_0000, set: 0b011_0010 },
-    Face { axes: [0, 2, 1], sign: 1.0, lowest: 0.0, clear: 0b110_0000, set: 0b001_0100 },
-    Face { axes: [0, 2, 1], sign: -1.0, lowest: 0.0, clear: 0b101_0000, set: 0b010_1000 },
+pub(super) const FACES: [HemicubeFace; 5] = [
+    HemicubeFace { axes: [0, 1, 2], sign: 1.0, lowest: -1.0, clear: 0b000_1111, set: 0 },
+    HemicubeFace { axes: [1, 2, 0], sign: 1.0, lowest: 0.0, clear: 0b111_0000, set: 0b000_0001 },
+    HemicubeFace { axes: [1, 2, 0], sign: -1.0, lowest: 0.0, clear: 0b100_0000, set: 0b011_0010 },
+    HemicubeFace { axes: [0, 2, 1], sign: 1.0, lowest: 0.0, clear: 0b110_0000, set: 0b001_0100 },
+    HemicubeFace { axes: [0, 2, 1], sign: -1.0, lowest: 0.0, clear: 0b101_0000, set: 0b010_1000 },
 ];
 
-impl Corners {
-    /// Replaces all by points of space, by coordinate, m; the rows of `frame` are the hemicube's axes.
+impl LocalCorners {
+    /// Replaces all by points of space, by coordinate, m.
     #[inline(always)]
     #[allow(clippy::needless_range_loop, reason = "seven lists in step, for the vectorizer")]
-    pub(super) fn place(&mut self, points: [&[f64]; 3], eye: DVec3, frame: &DMat3) {
+    pub(super) fn place(&mut self, points: [&[f64]; 3], frame: &Frame) {
         let count = points[0].len();
         self.at.iter_mut().for_each(|list| list.resize(count, 0.0));
         self.sides.resize(count, 0);
         let [xs, ys, zs] = points.map(|list| &list[..count]);
         let [ax, ay, az] = self.at.each_mut().map(|list| &mut list[..count]);
         let sides = &mut self.sides[..count];
-        let [rx, ry, rz] = [frame.row(0), frame.row(1), frame.row(2)];
+        let Frame { eye, axes } = frame;
+        let [rx, ry, rz] = [axes.row(0), axes.row(1), axes.row(2)];
         for k in 0..count {
             // In 64 bits: near a contact, heights are much smaller than distances.
             let (x, y, z) = (xs[k] - eye.x, ys[k] - eye.y, zs[k] - eye.z);
@@ -71,14 +76,27 @@ impl Corners {
         }
     }
 
-    /// Some corners in the coordinates of a face.
+    /// The convex polygon with some of the corners.
+    #[inline(always)]
+    pub(super) fn polygon(&self, range: Range<usize>) -> LocalPolygon<'_> {
+        LocalPolygon { corners: self, range }
+    }
+}
+
+/// A convex polygon in the frame of a hemicube.
+pub(super) struct LocalPolygon<'a> {
+    corners: &'a LocalCorners,
+    range: Range<usize>,
+}
+
+impl LocalPolygon<'_> {
+    /// Its corners in the coordinates of a face.
     #[inline(always)]
     pub(super) fn seen_by(
         &self,
-        face: &Face,
-        corners: std::ops::Range<usize>,
+        face: &HemicubeFace,
     ) -> impl ExactSizeIterator<Item = Vec3> + Clone {
-        let [a, b, w] = face.axes.map(|axis| &self.at[axis][corners.clone()]);
+        let [a, b, w] = face.axes.map(|axis| &self.corners.at[axis][self.range.clone()]);
         let sign = face.sign;
         a.iter().zip(b).zip(w).map(
             #[inline(always)]
@@ -86,10 +104,10 @@ impl Corners {
         )
     }
 
-    /// The sides on which all of some corners are, and those on which any of them is.
+    /// The sides on which all of its corners are, and those on which any of them is.
     #[inline(always)]
-    pub(super) fn sides(&self, corners: std::ops::Range<usize>) -> [u32; 2] {
-        let sides = self.sides[corners].iter();
+    pub(super) fn sides(&self) -> [u32; 2] {
+        let sides = self.corners.sides[self.range.clone()].iter();
         sides.fold([u32::MAX, 0], |[all, any], &side| [all & side, any | side])
     }
 }
@@ -106,7 +124,7 @@ pub(super) fn is_below([all, _]: [u32; 2]) -> bool {
     all & BELOW != 0
 }
 
-impl Face {
+impl HemicubeFace {
     pub(super) fn rows(&self, resolution: usize) -> usize {
         if self.lowest < 0.0 { resolution } else { resolution / 2 }
     }
@@ -144,7 +162,7 @@ impl Face {
     pub(super) fn clip(
         &self,
         polygon: impl Iterator<Item = Vec3>,
-        [clipped, spare]: &mut [Part; 2],
+        [clipped, spare]: &mut [ClippedPolygon; 2],
     ) -> bool {
         clipped.clear();
         clipped.extend(polygon);
@@ -171,7 +189,7 @@ impl Face {
 
     /// The part of a polygon inside of one of the planes that bound the face.
     #[inline(always)]
-    fn cut(&self, side: usize, polygon: &[Vec3], inside: &mut Part) {
+    fn cut(&self, side: usize, polygon: &[Vec3], inside: &mut ClippedPolygon) {
         inside.clear();
         let Some(&last) = polygon.last() else { return };
         let (mut from, mut depth) = (last, self.depth(last, side));

@@ -18,13 +18,13 @@ pub struct DeltaFactors {
     /// cells.
     sums: Vec<f32>,
     /// Of the top and of the half faces.
-    profiles: [Profile; 2],
+    profiles: [DeltaProfile; 2],
 }
 
 /// What the factors of a face's cells are computed from: they are `scale / (x² + y² + 1)²`, all linear
 /// in the column or the row, as coefficients of 1 and of these.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Profile {
+pub(super) struct DeltaProfile {
     /// Position along a row, by the column.
     pub(super) x: [f32; 2],
     /// Position across the rows, by the row.
@@ -70,7 +70,7 @@ impl DeltaFactors {
         let profile = |lowest: f64, scale: [f64; 2]| {
             let [x, y] = [-1.0, lowest].map(|first| [first + 0.5 * step, step]);
             let [x, y, scale] = [x, y, scale].map(|line| line.map(|value| value as f32));
-            Profile { x, y, scale }
+            DeltaProfile { x, y, scale }
         };
         Self {
             resolution,
@@ -81,6 +81,7 @@ impl DeltaFactors {
     }
 
     /// Cells along the edges of the top face.
+    #[inline]
     pub fn resolution(&self) -> usize {
         self.resolution
     }
@@ -99,7 +100,7 @@ impl DeltaFactors {
 
     /// What the factors of the cells of a face are computed from.
     #[inline(always)]
-    pub(super) fn profile(&self, face: usize) -> Profile {
+    pub(super) fn profile(&self, face: usize) -> DeltaProfile {
         self.profiles[usize::from(face != 0)]
     }
 
@@ -135,7 +136,7 @@ mod tests {
     fn profiles_are_what_the_factors_are_computed_from() {
         let delta = DeltaFactors::new(64);
         for (face, rows) in [64, 32, 32, 32, 32].into_iter().enumerate() {
-            let Profile { x, y, scale } = delta.profile(face);
+            let DeltaProfile { x, y, scale } = delta.profile(face);
             for row in 0..rows {
                 for (column, cell) in delta.row(face, row).iter().enumerate() {
                     let along = |[origin, step]: [f32; 2], at: usize| origin + step * at as f32;

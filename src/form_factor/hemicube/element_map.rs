@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
-use super::chart::{Chart, STRAIGHT};
+use super::chart::{BilinearChart, STRAIGHT};
 use crate::mesh::{Element, ElementId, Mesh, PatchId, VertexId};
 use crate::surface::polygon::edges;
 
@@ -35,7 +35,7 @@ const ON_LINE: f32 = 1e-3;
 /// of the quadrilaterals that it is divided in, side by side along the first coordinate.
 #[derive(Clone, Debug)]
 pub(super) struct Grid {
-    pub(super) pieces: SmallVec<[Chart<DVec3>; 1]>,
+    pub(super) pieces: SmallVec<[BilinearChart<DVec3>; 1]>,
     pub(super) normal: DVec3,
     /// Cells of a piece along its coordinates.
     pub(super) size: [u32; 2],
@@ -197,17 +197,20 @@ impl Forest<'_> {
 
 /// Elements that cover a patch's, and a chart of each: of the triangle or the quadrilaterals that it is
 /// or is divided in, or, where straight cuts would be curves in these, one of the whole.
-fn pieces(mesh: &Mesh, root: ElementId) -> (SmallVec<[ElementId; 1]>, SmallVec<[Chart<DVec2>; 1]>) {
+fn pieces(
+    mesh: &Mesh,
+    root: ElementId,
+) -> (SmallVec<[ElementId; 1]>, SmallVec<[BilinearChart<DVec2>; 1]>) {
     let Element { corners, children, .. } = &mesh[root];
     if is_cut(mesh, root) || (corners.len() > 4 && children.is_empty()) {
-        let chart = Chart::around(&mesh.outline(root));
+        let chart = BilinearChart::around(&mesh.outline(root));
         return (SmallVec::from([root]), SmallVec::from_iter([chart]));
     }
     let pieces: SmallVec<[ElementId; 1]> = match corners.len() {
         3 | 4 => SmallVec::from([root]),
         _ => children.iter().copied().collect(),
     };
-    let charts = pieces.iter().map(|&piece| Chart::new(&mesh.outline(piece))).collect();
+    let charts = pieces.iter().map(|&piece| BilinearChart::new(&mesh.outline(piece))).collect();
     (pieces, charts)
 }
 
@@ -236,7 +239,7 @@ fn cut(mesh: &Mesh, element: &Element) -> [VertexId; 2] {
 }
 
 /// Least width and height of the leaves of an element.
-fn finest(mesh: &Mesh, chart: &Chart<DVec2>, id: ElementId) -> DVec2 {
+fn finest(mesh: &Mesh, chart: &BilinearChart<DVec2>, id: ElementId) -> DVec2 {
     if mesh[id].is_leaf() {
         let outline = mesh.outline(id);
         let at = || outline.iter().map(|&p| chart.place(p));

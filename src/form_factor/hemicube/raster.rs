@@ -4,7 +4,7 @@ use glam::Vec3;
 use pulp::Simd;
 use smallvec::SmallVec;
 
-use super::clip::{Corners, FACES, Face, Part, is_below};
+use super::clip::{ClippedPolygon, FACES, HemicubeFace, LocalPolygon, is_below};
 
 /// Most numbers that a register holds.
 pub(super) const LANES: usize = 16;
@@ -19,7 +19,7 @@ pub(super) struct Footprint<'a> {
     /// Reciprocal depth at a cell's centre is `depth[0] + depth[1] column + depth[2] row`.
     pub(super) depth: [f32; 3],
     resolution: usize,
-    edges: &'a [Edge],
+    edges: &'a [ScanEdge],
     /// First and last but one row whose centre is covered.
     rows: [i32; 2],
 }
@@ -27,7 +27,7 @@ pub(super) struct Footprint<'a> {
 /// An edge of a polygon, in cells, and the rows from the first to before the second whose centres it
 /// crosses.
 #[derive(Clone, Copy, Debug, Default)]
-struct Edge {
+struct ScanEdge {
     start: [f32; 2],
     slope: f32,
     rows: [i32; 2],
@@ -36,8 +36,8 @@ struct Edge {
 /// Scratch space for clipping and scan conversion.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Raster {
-    clipped: [Part; 2],
-    edges: SmallVec<[Edge; 16]>,
+    clipped: [ClippedPolygon; 2],
+    edges: SmallVec<[ScanEdge; 16]>,
 }
 
 impl Raster {
@@ -46,10 +46,11 @@ impl Raster {
     pub(super) fn project(
         &mut self,
         resolution: usize,
-        (corners, range, plane): (&Corners, std::ops::Range<usize>, Vec3),
+        polygon: &LocalPolygon<'_>,
+        plane: Vec3,
         mut draw: impl FnMut(&Footprint<'_>),
     ) {
-        let sides = corners.sides(range.clone());
+        let sides = polygon.sides();
         if is_below(sides) {
             return;
         }
@@ -57,11 +58,11 @@ impl Raster {
             if face.misses(sides) {
                 continue;
             }
-            let seen = corners.seen_by(face, range.clone());
+            let seen = polygon.seen_by(face);
             let rows = if !face.cuts(sides) {
-                trace(seen, (face, resolution), &mut self.edges)
+                trace(seen, face, resolution, &mut self.edges)
             } else if face.clip(seen, &mut self.clipped) {
-                trace(self.clipped[0].iter().copied(), (face, resolution), &mut self.edges)
+                trace(self.clipped[0].iter().copied(), face, resolution, &mut self.edges)
             } else {
                 continue;
             };
@@ -76,12 +77,13 @@ impl Raster {
 #[inline(always)]
 fn trace(
     polygon: impl ExactSizeIterator<Item = Vec3>,
-    (face, resolution): (&Face, usize),
-    edges: &mut SmallVec<[Edge; 16]>,
+    face: &HemicubeFace,
+    resolution: usize,
+    edges: &mut SmallVec<[ScanEdge; 16]>,
 ) -> [i32; 2] {
     let most = face.rows(resolution) as i32;
     let half = resolution as f32 / 2.0;
-    edges.resize(polygon.len(), Edge::default());
+    edges.resize(polygon.len(), ScanEdge::default());
     let mut rows = [i32::MAX, 0];
     let mut corners = polygon.map(
         #[inline(always)]
@@ -95,7 +97,7 @@ fn trace(
         let lower = usize::from(from.0[1] >= to.0[1]);
         let [lower, upper] = [ends[lower], ends[1 - lower]];
         let slope = (upper.0[0] - lower.0[0]) / (upper.0[1] - lower.0[1]);
-        edges[count] = Edge { start: lower.0, slope, rows: [lower.1, upper.1] };
+        edges[count] = ScanEdge { start: lower.0, slope, rows: [lower.1, upper.1] };
         count += usize::from(lower.1 < upper.1);
         rows = [rows[0].min(to.1), rows[1].max(to.1)];
         from = to;
@@ -106,7 +108,7 @@ fn trace(
 
 /// Where a point is on a face, in cells, and the first row whose centre is beyond it.
 #[inline(always)]
-fn corner_at(face: &Face, p: Vec3, half: f32, most: i32) -> ([f32; 2], i32) {
+fn corner_at(face: &HemicubeFace, p: Vec3, half: f32, most: i32) -> ([f32; 2], i32) {
     let scale = half / p.z;
     let at = [(p.x + p.z) * scale, (p.y - face.lowest * p.z) * scale];
     (at, first_centre(at[1], most))

@@ -1,97 +1,19 @@
-//! Exact form factors between two polygons, nothing between them.
+//! Exact form factors between two polygons, with nothing between them or with occluders.
 //!
 //! All values are *exchanges* A₁F₁₂ = A₂F₂₁, m²: symmetric, and so reciprocal by construction.
+//!
+//! - `edges`, `cubature`: integrals along two edges and over polygons
+//! - `unoccluded`: the exchange with nothing between
+//! - `view`, `cell`, `occluded`: with occluders, points of one polygon see parts of the other
 
+mod cell;
 mod cubature;
 mod edges;
-mod grid;
 mod occluded;
+mod unoccluded;
+mod view;
 
-use std::f64::consts::PI;
-
-use glam::DVec3;
-
-use super::contour::point_to_polygon_above;
-use crate::scene::area_vector;
-use crate::visibility::{Facet, HalfSpace, Polygon};
-
-pub use occluded::visible_exchange;
-
-use cubature::Rule;
 pub(super) use cubature::{at as place_in, quadrilaterals};
-use edges::log_distance;
-
-/// Relative error of an exchange by contours, about.
-const ACCURACY: f64 = 1e-9;
-
-/// Exchange A₁F₁₂, m², between two convex polygons with nothing between; 0 if they face away from each other.
-///
-/// What of one lies behind the other is cut away. Near each other, the double integral along
-/// the contours; far apart, Gauss's rules over the smaller polygon of the form factor from a
-/// point, whose relative error is below 1e-6 there.
-pub fn exchange(a: Facet<'_>, b: Facet<'_>) -> f64 {
-    let (Some(front_a), Some(front_b)) = (in_front(a, b), in_front(b, a)) else { return 0.0 };
-    let (round_a, round_b) = (Round::about(&front_a), Round::about(&front_b));
-    let gap = round_a.centre.distance(round_b.centre) - round_a.radius - round_b.radius;
-    let ((small, normal), large, radius) = if round_a.radius < round_b.radius {
-        ((&front_a, a.plane.normal), &front_b, round_a.radius)
-    } else {
-        ((&front_b, b.plane.normal), &front_a, round_b.radius)
-    };
-    match Rule::for_ratio(gap / radius) {
-        Some(rule) => rule.integrate(small, |x| point_to_polygon_above(x, normal, large)),
-        None => by_contours(&front_a, &front_b),
-    }
-}
-
-/// Exchange A₁F₁₂, m², between two polygons that are nowhere behind each other, by the double
-/// integral along their contours: 1/2π |∮∮ ln r dx·dy| ([Goral et al. 1984], from Stokes's theorem).
-///
-/// Exact also where they share edges or nearly touch.
-///
-/// [Goral et al. 1984]: https://doi.org/10.1145/800031.808601
-pub fn by_contours(a: &[DVec3], b: &[DVec3]) -> f64 {
-    let unit = Round::about(a).centre.distance(Round::about(b).centre);
-    let unit = if unit > 0.0 { unit } else { 1.0 };
-    let smaller = area_vector(a).length().min(area_vector(b).length());
-    let tolerance = ACCURACY * smaller;
-    let pairs = edges_of(a).flat_map(|x| edges_of(b).map(move |y| (x, y)));
-    let sum: f64 = pairs.map(|(x, y)| log_distance(x, y, unit, tolerance)).sum();
-    (sum / (2.0 * PI)).abs()
-}
-
-/// True if two polygons lie in one plane, to within `tolerance`, m: then they exchange nothing, though
-/// in the limit of two that approach each other face to face they would.
-pub(super) fn is_level(a: Facet<'_>, b: Facet<'_>, tolerance: f64) -> bool {
-    let above = |plane: &HalfSpace, corners: &[DVec3]| {
-        corners.iter().any(|&corner| plane.depth(corner) > tolerance)
-    };
-    !above(&a.plane, b.corners) || !above(&b.plane, a.corners)
-}
-
-/// The part of `facet` in front of `other`'s plane, if there is one.
-fn in_front(facet: Facet<'_>, other: Facet<'_>) -> Option<Polygon> {
-    let depth = |corner: &DVec3| other.plane.depth(*corner);
-    if facet.corners.iter().all(|corner| depth(corner) >= 0.0) {
-        return Some(Polygon::from_slice(facet.corners));
-    }
-    Some(other.plane.clip(facet.corners)).filter(|part| !part.is_empty())
-}
-
-fn edges_of(polygon: &[DVec3]) -> impl Iterator<Item = [DVec3; 2]> + Clone + '_ {
-    (0..polygon.len()).map(|k| [polygon[k], polygon[(k + 1) % polygon.len()]])
-}
-
-/// A sphere around a polygon.
-struct Round {
-    centre: DVec3,
-    radius: f64,
-}
-
-impl Round {
-    fn about(polygon: &[DVec3]) -> Self {
-        let centre = polygon.iter().sum::<DVec3>() / polygon.len() as f64;
-        let radius = polygon.iter().map(|p| p.distance(centre)).fold(0.0, f64::max);
-        Self { centre, radius }
-    }
-}
+pub use occluded::visible_exchange;
+pub(super) use unoccluded::is_level;
+pub use unoccluded::{by_contours, exchange};

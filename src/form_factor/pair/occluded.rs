@@ -1,13 +1,11 @@
 //! Exchanges with occluders between: adaptive integration over one of the two polygons.
 
-use glam::DVec3;
-
-use super::cubature::{at, quadrilaterals};
-use super::grid::Cell;
-use super::{exchange, in_front, is_level};
-use crate::form_factor::contour::point_to_polygon_above;
+use super::cell::CubatureCell;
+use super::cubature::quadrilaterals;
+use super::unoccluded::{exchange, in_front, is_level};
+use super::view::{PairView, VisibleOfAll, add, share};
 use crate::scene::area_vector;
-use crate::visibility::{Between, Facet, Occluders};
+use crate::visibility::{Occluders, PlanarPolygon};
 
 /// Most cells that two polygons are divided in.
 const MOST_CELLS: usize = 512;
@@ -18,10 +16,6 @@ const DISTRUST: f64 = 0.5;
 /// Exchanges below this many times the error that is allowed are looked at from four points alone.
 const FAINT: f64 = 4.0;
 
-/// Distance of eyes from the border of what they are on, in tolerances: occluders within two of them
-/// count as in one plane with an eye.
-const MARGIN: f64 = 4.0;
-
 /// Exchange A₁F₁₂, m², between what two convex polygons see of each other, to within about
 /// `tolerance` times the smaller of their areas.
 ///
@@ -29,13 +23,19 @@ const MARGIN: f64 = 4.0;
 /// other polygon, integrated over cells that are halved where its share of all bends. Both
 /// polygons take the part of the eye, until they agree: a shadow between the points of one is in
 /// plain view of the other. Of all lengths only ratios matter.
-pub fn visible_exchange(occluders: &Occluders, a: Facet<'_>, b: Facet<'_>, tolerance: f64) -> f64 {
+pub fn visible_exchange(
+    occluders: &Occluders,
+    a: PlanarPolygon<'_>,
+    b: PlanarPolygon<'_>,
+    tolerance: f64,
+) -> f64 {
     if is_level(a, b, occluders.tolerance()) {
         return 0.0;
     }
     let tolerance = tolerance * area(a).min(area(b));
     let (Some(front_a), Some(front_b)) = (in_front(a, b), in_front(b, a)) else { return 0.0 };
-    let (a, b) = (Facet { corners: &front_a, ..a }, Facet { corners: &front_b, ..b });
+    let (a, b) =
+        (PlanarPolygon { corners: &front_a, ..a }, PlanarPolygon { corners: &front_b, ..b });
     let between = occluders.between(a, b);
     if between.hides_all() {
         return 0.0;
@@ -44,7 +44,7 @@ pub fn visible_exchange(occluders: &Occluders, a: Facet<'_>, b: Facet<'_>, toler
     if between.is_empty() || all == 0.0 {
         return all;
     }
-    let [there, back] = [(a, b), (b, a)].map(|(from, to)| View { from, to, between: &between });
+    let [there, back] = [(a, b), (b, a)].map(|(from, to)| PairView { from, to, between: &between });
     if all <= FAINT * tolerance {
         let smaller = if area(a) < area(b) { there } else { back };
         return all * smaller.visible_share();
@@ -71,90 +71,32 @@ fn settled<'a>(mut sides: [Integral<'a>; 2], all: f64, tolerance: f64) -> Integr
             return if better == 0 { there } else { back };
         }
         if errors[better] > tolerance {
-            sides[better].halve(Cell::error);
+            sides[better].halve(CubatureCell::error);
         } else {
             sides.iter_mut().for_each(|side| side.halve(|cell| cell.exchange[1]));
         }
     }
 }
 
-fn area(facet: Facet<'_>) -> f64 {
-    area_vector(facet.corners).length()
-}
-
-/// Form factors, or exchanges, of the visible part and of all.
-pub(super) type Seen = [f64; 2];
-
-/// One polygon as seen from points on another.
-#[derive(Clone, Copy)]
-pub(super) struct View<'a> {
-    pub(super) from: Facet<'a>,
-    pub(super) to: Facet<'a>,
-    between: &'a Between,
-}
-
-impl View<'_> {
-    /// Form factors from a place of a quadrilateral times its area per area of the unit square there, m².
-    pub(super) fn look(&self, quadrilateral: &[DVec3; 4], place: [f64; 2]) -> Seen {
-        let [s, t] = inside(quadrilateral, place, MARGIN * self.between.tolerance());
-        let (eye, area) = at(quadrilateral, s, t);
-        let factor =
-            |polygon: &[DVec3]| point_to_polygon_above(eye, self.from.plane.normal, polygon);
-        let all = factor(self.to.corners);
-        let pieces = self.between.visible_part(eye, self.to);
-        let visible: f64 = pieces.iter().map(|piece| factor(piece)).sum();
-        [area * visible.min(all), area * all]
-    }
-
-    /// Share of the exchange that nothing hides, by Gauss's two by two points.
-    fn visible_share(&self) -> f64 {
-        const NODES: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
-        let points = || NODES.into_iter().flat_map(|s| NODES.map(|t| [s, t]));
-        let looks = quadrilaterals(self.from.corners)
-            .flat_map(|quadrilateral| points().map(move |place| self.look(&quadrilateral, place)));
-        share(looks.fold([0.0; 2], add))
-    }
-}
-
-/// A place on the border of a quadrilateral moved inside, by `margin`, m, or more, where there is
-/// room: what touches a place has no side there.
-fn inside([a, b, c, d]: &[DVec3; 4], place: [f64; 2], margin: f64) -> [f64; 2] {
-    const LEAST: f64 = 0.002;
-    const MOST: f64 = 0.4;
-    let [s, t] = place.map(|x| x.clamp(LEAST, 1.0 - LEAST));
-    let (along_s, along_t) = ((b - a).lerp(c - d, t), (d - a).lerp(c - b, s));
-    let area = along_s.cross(along_t).length().max(f64::MIN_POSITIVE);
-    let clear = |x: f64, across: DVec3| {
-        let inset = (margin * across.length() / area).clamp(LEAST, MOST);
-        x.clamp(inset, 1.0 - inset)
-    };
-    [clear(s, along_t), clear(t, along_s)]
-}
-
-pub(super) fn add([visible, all]: Seen, other: Seen) -> Seen {
-    [visible + other[0], all + other[1]]
-}
-
-/// The visible share of all.
-pub(super) fn share([visible, all]: Seen) -> f64 {
-    if all > 0.0 { visible / all } else { 0.0 }
+fn area(polygon: PlanarPolygon<'_>) -> f64 {
+    area_vector(polygon.corners).length()
 }
 
 /// An integral over a polygon.
 struct Integral<'a> {
-    view: View<'a>,
-    cells: Vec<Cell>,
+    view: PairView<'a>,
+    cells: Vec<CubatureCell>,
 }
 
 impl<'a> Integral<'a> {
-    fn new(view: View<'a>) -> Self {
-        let cells = quadrilaterals(view.from.corners).map(|cell| Cell::whole(&view, cell));
+    fn new(view: PairView<'a>) -> Self {
+        let cells = quadrilaterals(view.from.corners).map(|cell| CubatureCell::whole(&view, cell));
         Self { cells: cells.collect(), view }
     }
 
     /// How far the visible part may be wrong, m².
     fn error(&self) -> f64 {
-        self.cells.iter().map(Cell::error).sum()
+        self.cells.iter().map(CubatureCell::error).sum()
     }
 
     /// True if from all points all, or nothing, is seen: then they may have missed what is small.
@@ -164,12 +106,12 @@ impl<'a> Integral<'a> {
         visible.min(all - visible) <= ROUNDING * all
     }
 
-    fn sum(&self) -> Seen {
+    fn sum(&self) -> VisibleOfAll {
         self.cells.iter().map(|cell| cell.exchange).fold([0.0; 2], add)
     }
 
     /// Halves the cell with the largest `measure`.
-    fn halve(&mut self, measure: impl Fn(&Cell) -> f64) {
+    fn halve(&mut self, measure: impl Fn(&CubatureCell) -> f64) {
         let order =
             |&i: &usize, &k: &usize| measure(&self.cells[i]).total_cmp(&measure(&self.cells[k]));
         let Some(most) = (0..self.cells.len()).max_by(order) else { return };
@@ -183,7 +125,7 @@ impl<'a> Integral<'a> {
         if self.cells.len() == 1 || (sum[1] - all).abs() <= tolerance {
             return all * share(sum);
         }
-        let exact = |cell: &Cell| match share(cell.exchange) {
+        let exact = |cell: &CubatureCell| match share(cell.exchange) {
             0.0 => 0.0,
             visible => visible * cell.unhidden(&self.view),
         };

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::surroundings::{Front, Sight, Surroundings};
-use crate::render::rays::Rays;
-use crate::scene::Camera;
+use super::candidate::CandidateView;
+use super::surroundings::{Front, Sighting, Surroundings};
+use crate::render::rays::CameraRays;
 
 /// Rows of the pictures by which candidates are judged.
 const TRIAL_HEIGHT: u32 = 32;
@@ -24,13 +24,6 @@ const BACKS_PENALTY: f64 = 0.7;
 /// Least cosine between a ray and a surface; what is seen more slantingly is hardly seen.
 const LEAST_COSINE: f64 = 0.1;
 
-/// A candidate.
-pub(super) struct View {
-    pub(super) camera: Camera,
-    /// Distance below which a surface stands in the way, m.
-    pub(super) near: f64,
-}
-
 /// What candidates are measured with.
 pub(super) struct Judge<'a> {
     pub(super) surroundings: &'a Surroundings<'a>,
@@ -43,7 +36,7 @@ pub(super) struct Judge<'a> {
 
 /// Sums over the rays of a trial picture.
 #[derive(Default)]
-pub(super) struct Tally {
+pub(super) struct TrialSums {
     rays: f64,
     filled: f64,
     near: f64,
@@ -53,11 +46,11 @@ pub(super) struct Tally {
 }
 
 impl Judge<'_> {
-    /// Worth of a view's [`Tally`], as far as it shows the inside if there is one.
-    pub(super) fn score(&self, view: &View) -> f64 {
+    /// Worth of a view's [`TrialSums`], as far as it shows the inside if there is one.
+    pub(super) fn score(&self, view: &CandidateView) -> f64 {
         let width = (f64::from(TRIAL_HEIGHT) * self.aspect).ceil() as u32;
-        let rays = Rays::new(&view.camera, width, TRIAL_HEIGHT);
-        let mut tally = Tally::default();
+        let rays = CameraRays::new(&view.camera, width, TRIAL_HEIGHT);
+        let mut sums = TrialSums::default();
         let (mut asked, mut inside) = (0.0, 0.0);
         for row in 0..TRIAL_HEIGHT {
             for column in 0..width {
@@ -65,7 +58,7 @@ impl Judge<'_> {
                 let solid_angle = rays.right.cross(rays.down).length() / direction.length().powi(3);
                 let unit = direction.normalize();
                 let sight = self.surroundings.look(rays.eye, unit);
-                let front = tally.add(&sight, (unit, solid_angle), view.near);
+                let front = sums.add(&sight, unit, solid_angle, view.near);
                 let is_asked = row % SPARSE == SPARSE / 2 && column % SPARSE == SPARSE / 2;
                 if let Some((front, area)) = front.filter(|_| self.is_room && is_asked) {
                     asked += area;
@@ -75,17 +68,18 @@ impl Judge<'_> {
         }
         let share = if self.is_room && asked > 0.0 { inside / asked } else { 1.0 };
         let is_above = self.is_room && rays.eye.y > self.surroundings.high.y;
-        tally.worth(self.usual) * share * if is_above { FROM_ABOVE } else { 1.0 }
+        sums.worth(self.usual) * share * if is_above { FROM_ABOVE } else { 1.0 }
     }
 }
 
-impl Tally {
+impl TrialSums {
     /// Counts what is met along a unit vector that stands for a solid angle, sr; returns the front and the area, m²,
     /// that is seen of it.
     pub(super) fn add(
         &mut self,
-        sight: &Sight,
-        (direction, solid_angle): (DVec3, f64),
+        sight: &Sighting,
+        direction: DVec3,
+        solid_angle: f64,
         near: f64,
     ) -> Option<(Front, f64)> {
         self.rays += 1.0;

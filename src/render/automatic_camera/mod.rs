@@ -3,24 +3,26 @@
 //! A mesh in which one can stand with walls around is a room, a house or a courtyard: what counts is how
 //! much is seen of what has walls around it, and there are views from eye height above its floors. Any
 //! other mesh is a thing, seen from outside.
+//!
+//! - `surroundings`: what stands around a place
+//! - `candidate`, `judge`: a view, and what it is worth
+//! - `outside`, `places`: views of the whole, and from places on floors
 
+mod candidate;
 mod judge;
 mod outside;
 mod places;
 mod surroundings;
-
-use std::f64::consts::PI;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::reconstruct::TriMesh;
 use crate::scene::Camera;
-use judge::{Judge, View};
-use surroundings::Surroundings;
 
-/// Vertical angle of view from inside, radians: 70°, as wide as a room needs.
-const INSIDE_FOV: f64 = 70.0 / 180.0 * PI;
+use candidate::{CandidateView, INSIDE_FOV};
+use judge::Judge;
+use surroundings::Surroundings;
 
 /// Share of the best score at which an earlier candidate is preferred, so that rounding does not
 /// choose the side from which a symmetric scene is seen.
@@ -45,7 +47,7 @@ pub fn automatic_camera(mesh: &TriMesh, aspect: f64) -> Camera {
         inside.map_or((Vec::new(), surroundings.usual), |inside| (inside.views, inside.usual));
     let judge = Judge { surroundings: &surroundings, aspect, is_room, usual };
     let [overview, standing] =
-        [outside::views(&surroundings, aspect), standing].map(|mut views: Vec<View>| {
+        [outside::views(&surroundings, aspect), standing].map(|mut views: Vec<CandidateView>| {
             let scores: Vec<f64> = views.par_iter().map(|view| judge.score(view)).collect();
             let best = scores.iter().copied().fold(0.0, f64::max);
             let chosen = scores.iter().position(|&score| score >= GOOD_ENOUGH * best)?;
@@ -55,9 +57,5 @@ pub fn automatic_camera(mesh: &TriMesh, aspect: f64) -> Camera {
         (Some((_, whole)), Some((camera, best))) if whole < GOOD_OVERVIEW * best => Some(camera),
         (overview, _) => overview.map(|(camera, _)| camera),
     };
-    camera.unwrap_or_else(|| self::camera(DVec3::Z, DVec3::ZERO, INSIDE_FOV))
-}
-
-fn camera(eye: DVec3, target: DVec3, vertical_fov: f64) -> Camera {
-    Camera { name: "automatic".to_owned(), eye, target, up: DVec3::Y, vertical_fov }
+    camera.unwrap_or_else(|| candidate::camera(DVec3::Z, DVec3::ZERO, INSIDE_FOV))
 }

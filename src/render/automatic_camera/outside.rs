@@ -4,9 +4,8 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::judge::View;
+use super::candidate::{CandidateView, INSIDE_FOV, camera};
 use super::surroundings::{Surroundings, near};
-use super::{INSIDE_FOV, camera};
 use crate::reconstruct::TriMesh;
 use crate::scene::Camera;
 
@@ -21,12 +20,13 @@ const FRAME: f64 = 1.03;
 const LEAST_FACING: f64 = -0.3;
 
 /// Views from all around, then from the box's corners.
-pub(super) fn views(surroundings: &Surroundings<'_>, aspect: f64) -> Vec<View> {
+pub(super) fn views(surroundings: &Surroundings<'_>, aspect: f64) -> Vec<CandidateView> {
     let mesh = surroundings.mesh;
-    let outside = outside_views(mesh, aspect).into_iter().map(|camera| View { camera, near: 0.0 });
+    let outside =
+        outside_views(mesh, aspect).into_iter().map(|camera| CandidateView { camera, near: 0.0 });
     let box_views = box_views(mesh).into_iter().map(|camera| {
         let near = near(&surroundings.look_around(camera.eye));
-        View { camera, near }
+        CandidateView { camera, near }
     });
     outside.chain(box_views).collect()
 }

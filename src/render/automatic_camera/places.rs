@@ -5,9 +5,9 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::judge::{Tally, View};
-use super::surroundings::{AROUND, Sight, Surroundings, near};
-use super::{INSIDE_FOV, camera};
+use super::candidate::{CandidateView, INSIDE_FOV, camera};
+use super::judge::TrialSums;
+use super::surroundings::{AROUND, Sighting, Surroundings, near};
 
 /// Places along the longer side of the mesh's footprint, and where those find too few inside: a house may stand in
 /// a large garden.
@@ -52,7 +52,7 @@ const ELEVATIONS: [f64; 3] = [-20.0, 0.0, 20.0];
 const RING: f64 = 20.0 / 180.0 * PI;
 
 /// A place inside.
-struct Place {
+struct Standpoint {
     eye: DVec3,
     /// Distance below which a surface stands in the way, m.
     near: f64,
@@ -61,7 +61,7 @@ struct Place {
 /// What there is inside.
 pub(super) struct Inside {
     /// The best views.
-    pub(super) views: Vec<View>,
+    pub(super) views: Vec<CandidateView>,
     /// Log-average of the luminance of what is seen from places there, W/m²: a room may be much dimmer than the
     /// garden around it.
     pub(super) usual: f64,
@@ -78,8 +78,9 @@ pub(super) fn inside(surroundings: &Surroundings<'_>, aspect: f64) -> Option<Ins
     let seen = || around.iter().flat_map(Panorama::luminances);
     let usual = (seen().map(f64::ln).sum::<f64>() / seen().count().max(1) as f64).exp();
     let half_width = (aspect * (INSIDE_FOV / 2.0).tan()).atan();
-    let best =
-        |(place, around): (&Place, &Panorama)| around.best_direction(half_width, place.near, usual);
+    let best = |(place, around): (&Standpoint, &Panorama)| {
+        around.best_direction(half_width, place.near, usual)
+    };
     let mut ranked: Vec<_> = found.iter().zip(&around).map(|pair| (best(pair), pair.0)).collect();
     ranked.sort_by(|a, b| b.0.0.total_cmp(&a.0.0));
     ranked.truncate(MOST_VIEWS);
@@ -89,11 +90,11 @@ pub(super) fn inside(surroundings: &Surroundings<'_>, aspect: f64) -> Option<Ins
 }
 
 /// The places inside that a grid finds.
-fn places(surroundings: &Surroundings<'_>, grid: u32) -> Vec<Place> {
+fn places(surroundings: &Surroundings<'_>, grid: u32) -> Vec<Standpoint> {
     columns(surroundings, grid)
         .par_iter()
         .flat_map_iter(|&top| floors(surroundings, top))
-        .filter_map(|(floor, headroom)| Place::new(surroundings, floor, headroom))
+        .filter_map(|(floor, headroom)| Standpoint::new(surroundings, floor, headroom))
         .collect()
 }
 
@@ -139,7 +140,7 @@ fn floors(surroundings: &Surroundings<'_>, top: DVec3) -> Vec<(DVec3, f64)> {
     floors
 }
 
-impl Place {
+impl Standpoint {
     /// A place at eye height above a floor, if walls stand around it.
     fn new(surroundings: &Surroundings<'_>, floor: DVec3, headroom: f64) -> Option<Self> {
         let lowest = if headroom > UNLIKELY_HEADROOM { LOWEST_IN_OTHER_UNITS } else { LOWEST };
@@ -150,17 +151,17 @@ impl Place {
         (walls as f64 >= ENCLOSED * sights.len() as f64).then(|| Self { eye, near: near(&sights) })
     }
 
-    fn view(&self, azimuth: f64, pitch: f64) -> View {
+    fn view(&self, azimuth: f64, pitch: f64) -> CandidateView {
         let target = self.eye + direction(azimuth, pitch.to_radians());
-        View { camera: camera(self.eye, target, INSIDE_FOV), near: self.near }
+        CandidateView { camera: camera(self.eye, target, INSIDE_FOV), near: self.near }
     }
 }
 
 /// What is seen all around a place, a column of rays a direction.
-struct Panorama(Vec<[Ray; ELEVATIONS.len()]>);
+struct Panorama(Vec<[PanoramaRay; ELEVATIONS.len()]>);
 
-struct Ray {
-    sight: Sight,
+struct PanoramaRay {
+    sight: Sighting,
     /// A unit vector.
     direction: DVec3,
     /// What the ray stands for, sr.
@@ -175,7 +176,7 @@ impl Panorama {
         let ray = |column: u32, elevation: f64| {
             let direction = direction(STEP * f64::from(column), elevation.to_radians());
             let solid_angle = STEP * RING * elevation.to_radians().cos();
-            Ray { sight: surroundings.look(eye, direction), direction, solid_angle }
+            PanoramaRay { sight: surroundings.look(eye, direction), direction, solid_angle }
         };
         Self((0..AROUND).map(|column| ELEVATIONS.map(|elevation| ray(column, elevation))).collect())
     }
@@ -192,13 +193,13 @@ impl Panorama {
         let count = self.0.len();
         let reach = ((half_width / STEP).floor() as usize).min(count / 2 - 1);
         let worth = |middle: usize| {
-            let mut tally = Tally::default();
+            let mut sums = TrialSums::default();
             for column in middle + count - reach..=middle + count + reach {
                 for ray in &self.0[column % count] {
-                    tally.add(&ray.sight, (ray.direction, ray.solid_angle), near);
+                    sums.add(&ray.sight, ray.direction, ray.solid_angle, near);
                 }
             }
-            tally.worth(usual)
+            sums.worth(usual)
         };
         let all = (0..count).map(|middle| (worth(middle), STEP * middle as f64));
         all.fold((0.0, 0.0), |best, next| if next.0 > best.0 { next } else { best })

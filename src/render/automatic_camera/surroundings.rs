@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::colour::luminance;
 use crate::reconstruct::TriMesh;
-use crate::render::caster::{Caster, Hit, Sides};
+use crate::render::caster::{Caster, MeshHit, VisibleSides};
 use crate::render::shade::radiosity_at;
 use crate::tone::log_average_luminance;
 
@@ -45,7 +45,7 @@ pub(super) struct Surroundings<'a> {
 
 /// What a ray meets.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Sight {
+pub(super) struct Sighting {
     /// Distance to the first surface, from whichever side, m; infinite if there is none.
     pub(super) distance: f64,
     /// Whether that is seen from its back.
@@ -83,19 +83,19 @@ impl<'a> Surroundings<'a> {
     }
 
     /// What is met along a unit vector.
-    pub(super) fn look(&self, eye: DVec3, direction: DVec3) -> Sight {
-        let Some(hit) = self.caster.first(eye, direction, Sides::Both) else {
-            return Sight { distance: f64::INFINITY, ..Sight::default() };
+    pub(super) fn look(&self, eye: DVec3, direction: DVec3) -> Sighting {
+        let Some(hit) = self.caster.first(eye, direction, VisibleSides::Both) else {
+            return Sighting { distance: f64::INFINITY, ..Sighting::default() };
         };
         let front = match hit.front {
             true => Some(hit),
-            false => self.caster.first(eye, direction, Sides::Front),
+            false => self.caster.first(eye, direction, VisibleSides::Front),
         };
         let front = front.map(|front| self.front(eye, direction, &front));
-        Sight { distance: hit.distance, through_back: !hit.front, front }
+        Sighting { distance: hit.distance, through_back: !hit.front, front }
     }
 
-    fn front(&self, eye: DVec3, direction: DVec3, hit: &Hit) -> Front {
+    fn front(&self, eye: DVec3, direction: DVec3, hit: &MeshHit) -> Front {
         let corners = self.mesh.triangles[hit.triangle];
         let [a, b, c] = corners.map(|corner| self.mesh.positions[corner as usize]);
         let normal = (b - a).cross(c - a).normalize_or_zero();
@@ -105,7 +105,7 @@ impl<'a> Surroundings<'a> {
     }
 
     /// What is met all around at the height of an eye.
-    pub(super) fn look_around(&self, eye: DVec3) -> Vec<Sight> {
+    pub(super) fn look_around(&self, eye: DVec3) -> Vec<Sighting> {
         compass(AROUND).map(|direction| self.look(eye, direction)).collect()
     }
 
@@ -127,7 +127,7 @@ impl<'a> Surroundings<'a> {
     }
 }
 
-impl Sight {
+impl Sighting {
     /// Whether a lit front is the first thing met.
     pub(super) fn is_wall(&self) -> bool {
         !self.through_back && self.front.is_some_and(|front| front.luminance > 0.0)
@@ -135,7 +135,7 @@ impl Sight {
 }
 
 /// Distance, m, below which something stands in the way of an eye that meets this all around; 0 in the open.
-pub(super) fn near(around: &[Sight]) -> f64 {
+pub(super) fn near(around: &[Sighting]) -> f64 {
     let mut distances: Vec<f64> = around.iter().map(|sight| sight.distance).collect();
     distances.sort_by(f64::total_cmp);
     distances

@@ -23,7 +23,7 @@ use super::sources::Sources;
 use super::transport::{Link, Row};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
-use crate::form_factor::hemicube::{DeltaFactors, Targets, enough_cells};
+use crate::form_factor::hemicube::{DeltaFactors, HemicubeScene, enough_cells};
 use crate::light::{ElementLight, Optics, VertexLight};
 use crate::mesh::{ElementId, Mesh, PatchId};
 use crate::refine::mean_radiosity;
@@ -54,7 +54,7 @@ pub(super) struct Shooting<'a, 'o> {
     optics: &'a Optics,
     occluders: &'a Occluders,
     delta: DeltaFactors,
-    targets: Targets,
+    targets: HemicubeScene,
     /// By group.
     rows: Vec<Option<Row>>,
     kept: usize,
@@ -127,7 +127,7 @@ impl<'a, 'o> Shooting<'a, 'o> {
             optics,
             occluders,
             delta: DeltaFactors::new(resolution),
-            targets: Targets::new(&mesh.patches),
+            targets: HemicubeScene::new(&mesh.patches),
             rows: vec![None; groups.len()],
             groups,
             glares: glaring(

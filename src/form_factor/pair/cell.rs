@@ -3,20 +3,20 @@
 use glam::DVec3;
 
 use super::cubature::at;
-use super::exchange;
-use super::occluded::{Seen, View, add, share};
-use crate::visibility::Facet;
+use super::unoccluded::exchange;
+use super::view::{PairView, VisibleOfAll, add, share};
+use crate::visibility::PlanarPolygon;
 
 /// A part of a quadrilateral, seen from three by three points: its corners, the middles of its edges
 /// and its centre.
-pub(super) struct Cell {
+pub(super) struct CubatureCell {
     quadrilateral: [DVec3; 4],
     /// From and to, along each side of the unit square.
     bounds: [[f64; 2]; 2],
     /// By step along the first side, then along the second.
-    looks: [[Seen; 3]; 3],
+    looks: [[VisibleOfAll; 3]; 3],
     /// By Simpson's rule, m².
-    pub(super) exchange: Seen,
+    pub(super) exchange: VisibleOfAll,
     /// How far the visible exchange may be wrong, m², as the view bends along each side.
     errors: [f64; 2],
 }
@@ -31,15 +31,19 @@ const COARSE: f64 = 0.1;
 /// Simpson's weights.
 const WEIGHTS: [f64; 3] = [1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0];
 
-impl Cell {
+impl CubatureCell {
     /// All of a quadrilateral.
-    pub(super) fn whole(view: &View<'_>, quadrilateral: [DVec3; 4]) -> Self {
+    pub(super) fn whole(view: &PairView<'_>, quadrilateral: [DVec3; 4]) -> Self {
         const STEPS: [f64; 3] = [0.0, 0.5, 1.0];
         let looks = STEPS.map(|s| STEPS.map(|t| view.look(&quadrilateral, [s, t])));
         Self::new(quadrilateral, [[0.0, 1.0]; 2], looks)
     }
 
-    fn new(quadrilateral: [DVec3; 4], bounds: [[f64; 2]; 2], looks: [[Seen; 3]; 3]) -> Self {
+    fn new(
+        quadrilateral: [DVec3; 4],
+        bounds: [[f64; 2]; 2],
+        looks: [[VisibleOfAll; 3]; 3],
+    ) -> Self {
         let area = bounds.iter().map(|[from, to]| to - from).product::<f64>();
         let mut exchange = [0.0; 2];
         for (row, u) in looks.iter().zip(WEIGHTS) {
@@ -49,7 +53,7 @@ impl Cell {
         }
         // Were the same share seen from everywhere, there would be no error.
         let (mean, middle) = (share(exchange), exchange[1] / area);
-        let line = |line: [Seen; 3]| {
+        let line = |line: [VisibleOfAll; 3]| {
             let [first, between, last] = line.map(|[visible, all]| visible - mean * all);
             let all = line.map(|look| look[1]);
             // A shadow's edge in the very middle looks straight.
@@ -58,7 +62,7 @@ impl Cell {
             bend(first, between, last) + STEEP * slope + COARSE * bend(all[0], all[1], all[2])
         };
         // What separates Simpson's rule from that of trapezoids.
-        let error = |lines: [[Seen; 3]; 3]| {
+        let error = |lines: [[VisibleOfAll; 3]; 3]| {
             let sum: f64 = lines.into_iter().zip(WEIGHTS).map(|(l, weight)| weight * line(l)).sum();
             sum * area / 12.0
         };
@@ -72,7 +76,7 @@ impl Cell {
     }
 
     /// Its halves along the side along which its view bends more.
-    pub(super) fn halves(&self, view: &View<'_>) -> [Self; 2] {
+    pub(super) fn halves(&self, view: &PairView<'_>) -> [Self; 2] {
         let along = usize::from(self.errors[1] > self.errors[0]);
         let [from, to] = self.bounds[along];
         let middle = 0.5 * (from + to);
@@ -98,14 +102,14 @@ impl Cell {
     }
 
     /// Exchange, m², of it with all of `to`.
-    pub(super) fn unhidden(&self, view: &View<'_>) -> f64 {
+    pub(super) fn unhidden(&self, view: &PairView<'_>) -> f64 {
         let [s, t] = self.bounds;
         let places = [[s[0], t[0]], [s[1], t[0]], [s[1], t[1]], [s[0], t[1]]];
         let corners = places.map(|[s, t]| at(&self.quadrilateral, s, t).0);
-        exchange(Facet { corners: &corners, ..view.from }, view.to)
+        exchange(PlanarPolygon { corners: &corners, ..view.from }, view.to)
     }
 }
 
-fn transposed(looks: [[Seen; 3]; 3]) -> [[Seen; 3]; 3] {
+fn transposed(looks: [[VisibleOfAll; 3]; 3]) -> [[VisibleOfAll; 3]; 3] {
     [0, 1, 2].map(|i| [0, 1, 2].map(|k| looks[k][i]))
 }

@@ -11,10 +11,11 @@
 //! | 1 003 038 | 64 | 82 | 8.3 | 111 |
 //! | 1 003 038 | 128 | 20 | 8.4 | 36 |
 
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DMat3, Vec3};
 
-use super::cells::Cells;
-use super::clip::{self, FACES};
+use super::clip::{FACES, HemicubeFace};
+use super::frame::Frame;
+use super::item_buffer::ItemBuffer;
 use crate::visibility::PatchHierarchy;
 use crate::visibility::packet::{NOTHING, Packet, RAYS};
 
@@ -23,29 +24,30 @@ const BLOCK: [usize; 2] = [4, RAYS / 4];
 
 /// One face's cells as directions in space: at (column, row),
 /// `corner + by_column * column + by_row * row`, of depth one.
-struct Face {
+struct FaceRays {
     corner: Vec3,
     by_column: Vec3,
     by_row: Vec3,
     rows: usize,
 }
 
-/// Finds what each cell of a hemicube sees. `frame` maps to the hemicube's axes.
-pub(super) fn fill(hierarchy: &PatchHierarchy, (eye, frame): (DVec3, &DMat3), cells: &mut Cells) {
-    let resolution = cells.resolution();
+/// Finds what each cell of a hemicube sees.
+pub(super) fn fill(hierarchy: &PatchHierarchy, frame: &Frame, buffer: &mut ItemBuffer<'_>) {
+    let resolution = buffer.resolution();
     let mut packets = Vec::new();
     for (number, face) in FACES.iter().enumerate() {
-        let face = Face::new(face, frame, resolution);
+        let face = FaceRays::new(face, &frame.axes, resolution);
         for row in (0..face.rows).step_by(BLOCK[1]) {
             packets.clear();
             let columns = (0..resolution).step_by(BLOCK[0]);
             packets.extend(columns.map(|column| face.packet(column, row)));
-            hierarchy.cast(eye, &mut packets);
+            hierarchy.cast(frame.eye, &mut packets);
             for (block, packet) in packets.iter().enumerate() {
                 for ray in (0..RAYS).filter(|&ray| packet.patch[ray] != NOTHING) {
                     let (column, row) = cell(block * BLOCK[0], row, ray);
                     if column < resolution && row < face.rows {
-                        cells.put(number, [row, column], (packet.patch[ray], packet.nearness[ray]));
+                        let (patch, nearness) = (packet.patch[ray], packet.nearness[ray]);
+                        buffer.put(number, [row, column], patch, nearness);
                     }
                 }
             }
@@ -58,11 +60,11 @@ fn cell(column: usize, row: usize, ray: usize) -> (usize, usize) {
     (column + ray % BLOCK[0], row + ray / BLOCK[0])
 }
 
-impl Face {
-    fn new(face: &clip::Face, frame: &DMat3, n: usize) -> Self {
+impl FaceRays {
+    fn new(face: &HemicubeFace, axes: &DMat3, n: usize) -> Self {
         let ([a, b, w], sign, lowest) = (face.axes, f64::from(face.sign), f64::from(face.lowest));
         let step = 2.0 / n as f64;
-        let (x, y, z) = (frame.row(a), frame.row(b), frame.row(w) * sign);
+        let (x, y, z) = (axes.row(a), axes.row(b), axes.row(w) * sign);
         Self {
             corner: (z + x * (0.5 * step - 1.0) + y * (0.5 * step + lowest)).as_vec3(),
             by_column: (x * step).as_vec3(),
@@ -89,13 +91,15 @@ impl Face {
 mod tests {
     use std::path::Path;
 
+    use glam::DVec3;
+
     use super::*;
-    use crate::form_factor::hemicube::{DeltaFactors, Hemicube, Targets};
+    use crate::form_factor::hemicube::{DeltaFactors, Hemicube, HemicubeScene};
     use crate::mesh::Mesh;
     use crate::scene::load;
     use crate::settings::{Length, Settings};
     use crate::surface::surfaces_of;
-    use crate::visibility::Occluders;
+    use crate::visibility::{Occluders, SurfacePoint};
 
     #[test]
     fn rays_and_projection_fill_the_same_cells() {
@@ -105,20 +109,20 @@ mod tests {
         let mesh = Mesh::new(&surfaces, &Settings { patch_size, ..Settings::draft() });
         let (occluders, hierarchy) =
             (Occluders::new(&surfaces), PatchHierarchy::new(&mesh.patches));
-        let targets = Targets::new(&mesh.patches);
+        let scene = HemicubeScene::new(&mesh.patches);
         for resolution in [64, 66] {
             let delta = DeltaFactors::new(resolution);
-            let mut hemicube = Hemicube::new(&delta, &targets, &occluders);
+            let mut hemicube = Hemicube::new(&delta, &scene, &occluders);
             let (mut all, mut differing) = (0, 0);
             for patch in mesh.patches.iter().step_by(17) {
                 let eye = patch.corners.iter().sum::<DVec3>() / patch.corners.len() as f64;
-                hemicube.look((eye, patch.normal), 0.3);
-                let mut cells = Cells::new(resolution);
-                fill(&hierarchy, (eye, &hemicube.frame), &mut cells);
+                hemicube.look(SurfacePoint::new(eye, patch.normal), 0.3);
+                let mut cells = ItemBuffer::new(&delta);
+                fill(&hierarchy, &hemicube.frame, &mut cells);
                 for (face, row, items) in cells.rows() {
-                    let drawn = hemicube.cells.items(face, row);
+                    let drawn = hemicube.buffer.items(face, row);
                     let depths =
-                        cells.depths(face, row).iter().zip(hemicube.cells.depths(face, row));
+                        cells.depths(face, row).iter().zip(hemicube.buffer.depths(face, row));
                     for ((ray, drawn), (depth, near)) in items.iter().zip(drawn).zip(depths) {
                         let close = (depth - near).abs() <= 1e-4 * near;
                         differing += usize::from(ray != drawn || !close);

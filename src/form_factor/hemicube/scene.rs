@@ -1,9 +1,10 @@
 //! The patches of a mesh, laid out for hemicubes: their corners coordinate by coordinate, in blocks.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::clip::Corners;
+use super::clip::{LocalCorners, LocalPolygon};
+use super::frame::Frame;
 use super::resolution::MANY;
 use crate::mesh::Patch;
 use crate::visibility::{PatchHierarchy, hair};
@@ -14,10 +15,10 @@ const BLOCK: usize = 32;
 
 /// What hemicubes look at; made once for all of them.
 #[derive(Clone, Debug)]
-pub struct Targets {
+pub struct HemicubeScene {
     /// By coordinate: the corners, m, patch after patch.
     corners: [Vec<f64>; 3],
-    patches: Vec<Target>,
+    patches: Vec<ScenePatch>,
     blocks: Vec<Block>,
     /// For rays, where patches are many.
     hierarchy: Option<PatchHierarchy>,
@@ -26,7 +27,7 @@ pub struct Targets {
 
 /// A patch.
 #[derive(Clone, Debug)]
-struct Target {
+struct ScenePatch {
     /// First of its corners.
     first: u32,
     normal: DVec3,
@@ -41,10 +42,10 @@ struct Block {
     radius: f64,
 }
 
-impl Targets {
+impl HemicubeScene {
     /// The patches of a mesh, in their order.
     pub fn new(patches: &[Patch]) -> Self {
-        let mut targets = Self {
+        let mut scene = Self {
             corners: [Vec::new(), Vec::new(), Vec::new()],
             patches: Vec::with_capacity(patches.len() + 1),
             blocks: Vec::with_capacity(patches.len().div_ceil(BLOCK)),
@@ -52,14 +53,14 @@ impl Targets {
             hair: hair(patches),
         };
         for patch in patches {
-            let first = targets.corners[0].len() as u32;
-            targets.patches.push(Target {
+            let first = scene.corners[0].len() as u32;
+            scene.patches.push(ScenePatch {
                 first,
                 normal: patch.normal,
                 two_sided: patch.two_sided,
             });
             for corner in &patch.corners {
-                for (list, value) in targets.corners.iter_mut().zip(corner.to_array()) {
+                for (list, value) in scene.corners.iter_mut().zip(corner.to_array()) {
                     list.push(value);
                 }
             }
@@ -69,9 +70,9 @@ impl Targets {
             let centre = corners().sum::<DVec3>() / corners().count().max(1) as f64;
             let radius = corners().map(|corner| corner.distance(centre)).fold(0.0, f64::max);
             let first = number * BLOCK;
-            targets.blocks.push(Block { patches: first..first + block.len(), centre, radius });
+            scene.blocks.push(Block { patches: first..first + block.len(), centre, radius });
         }
-        targets
+        scene
     }
 
     /// What rays look for patches in, if these are so many that a hemicube's cells may be fewer.
@@ -113,30 +114,30 @@ impl Targets {
     /// Height of an eye above the plane of a patch, m.
     #[inline(always)]
     pub(super) fn height(&self, patch: usize, eye: DVec3) -> f64 {
-        let Target { first, normal, .. } = self.patches[patch];
+        let ScenePatch { first, normal, .. } = self.patches[patch];
         (eye - self.corner(first as usize)).dot(normal)
     }
 
-    /// Calls `visit` with the patches that are not wholly below the horizon, as runs of corners in the
-    /// frame whose rows are the hemicube's axes.
+    /// Calls `visit` with the patches that are not wholly below the horizon, in the hemicube's
+    /// frame.
     #[inline(always)]
     pub(super) fn for_each_above(
         &self,
-        (eye, frame): (DVec3, &DMat3),
-        local: &mut Corners,
-        mut visit: impl FnMut(usize, &Corners, std::ops::Range<usize>),
+        frame: &Frame,
+        local: &mut LocalCorners,
+        mut visit: impl FnMut(usize, LocalPolygon<'_>),
     ) {
-        let up = frame.row(2);
+        let (eye, up) = (frame.eye, frame.normal());
         for block in &self.blocks {
             if (block.centre - eye).dot(up) < -block.radius {
                 continue;
             }
             let first = self.patches[block.patches.start].first as usize;
             let end = self.corners_of(block.patches.end - 1).end;
-            local.place(self.corners.each_ref().map(|list| &list[first..end]), eye, frame);
+            local.place(self.corners.each_ref().map(|list| &list[first..end]), frame);
             for patch in block.patches.clone() {
                 let corners = self.corners_of(patch);
-                visit(patch, local, corners.start - first..corners.end - first);
+                visit(patch, local.polygon(corners.start - first..corners.end - first));
             }
         }
     }

@@ -11,8 +11,8 @@ pub(super) use crate::visibility::packet::NOTHING;
 
 /// Cells of the five faces, row by row; rows are filled up to whole registers.
 #[derive(Clone, Debug)]
-pub(super) struct Cells {
-    resolution: usize,
+pub(super) struct ItemBuffer<'a> {
+    delta: &'a DeltaFactors,
     /// Cells in a row, those beyond the resolution included.
     stride: usize,
     /// Reciprocal depth of what each cell sees.
@@ -23,28 +23,37 @@ pub(super) struct Cells {
 
 /// Cells beside each other that see the same patch.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Run {
+pub(super) struct Span {
     /// The patch, or [`NOTHING`].
     pub(super) patch: u32,
     pub(super) face: u16,
     pub(super) row: u16,
     /// Columns from the first to before the second.
     pub(super) columns: [u16; 2],
-    /// The run of the same patch before it, or [`NOTHING`].
+    /// The span of the same patch before it, or [`NOTHING`].
     pub(super) before: u32,
 }
 
-impl Cells {
-    pub(super) fn new(resolution: usize) -> Self {
+impl<'a> ItemBuffer<'a> {
+    /// Cells that weigh what `delta` says.
+    pub(super) fn new(delta: &'a DeltaFactors) -> Self {
+        let resolution = delta.resolution();
         let stride = resolution.next_multiple_of(LANES);
         let count = 3 * resolution * stride;
         let (depth, item) = (vec![0.0; count], vec![NOTHING; count]);
-        Self { resolution, stride, depth, item }
+        Self { delta, stride, depth, item }
     }
 
     /// Cells along the edge of the top face.
+    #[inline(always)]
     pub(super) fn resolution(&self) -> usize {
-        self.resolution
+        self.delta.resolution()
+    }
+
+    /// What the cells weigh.
+    #[inline(always)]
+    pub(super) fn delta(&self) -> &'a DeltaFactors {
+        self.delta
     }
 
     /// Puts a patch and its reciprocal depth into a cell.
@@ -52,7 +61,8 @@ impl Cells {
         &mut self,
         face: usize,
         [row, column]: [usize; 2],
-        (patch, nearness): (u32, f32),
+        patch: u32,
+        nearness: f32,
     ) {
         let cell = (self.first_row(face) + row) * self.stride + column;
         self.item[cell] = patch;
@@ -72,10 +82,11 @@ impl Cells {
         &mut self,
         simd: S,
         footprint: &Footprint<'_>,
-        (patch, recess, delta): (u32, f32, &DeltaFactors),
+        patch: u32,
+        recess: f32,
     ) -> f32 {
         let mut covered = 0.0;
-        let face = footprint.face;
+        let (delta, face) = (self.delta, footprint.face);
         let first_row = self.first_row(face);
         footprint.for_each_row(
             simd,
@@ -113,11 +124,11 @@ impl Cells {
         covered
     }
 
-    /// Calls `visit` for each run of cells that see the same, row by row.
+    /// Calls `visit` for each span of cells that see the same, row by row.
     #[inline(always)]
-    pub(super) fn for_each_run(&self, mut visit: impl FnMut(Run)) {
+    pub(super) fn for_each_span(&self, mut visit: impl FnMut(Span)) {
         for (face, shape) in FACES.iter().enumerate() {
-            for row in 0..shape.rows(self.resolution) {
+            for row in 0..shape.rows(self.resolution()) {
                 let items = self.items(face, row);
                 let mut start = 0;
                 for_each_end(
@@ -126,7 +137,7 @@ impl Cells {
                     |end| {
                         let (patch, columns) = (items[start], [start as u16, end as u16]);
                         let [face, row] = [face, row].map(|k| k as u16);
-                        visit(Run { patch, face, row, columns, before: NOTHING });
+                        visit(Span { patch, face, row, columns, before: NOTHING });
                         start = end;
                     },
                 );
@@ -138,7 +149,7 @@ impl Cells {
     #[inline(always)]
     pub(super) fn rows(&self) -> impl Iterator<Item = (usize, usize, &[u32])> {
         FACES.iter().enumerate().flat_map(move |(face, shape)| {
-            let rows = 0..shape.rows(self.resolution);
+            let rows = 0..shape.rows(self.resolution());
             rows.map(move |row| (face, row, self.items(face, row)))
         })
     }
@@ -147,7 +158,7 @@ impl Cells {
     #[inline(always)]
     pub(super) fn items(&self, face: usize, row: usize) -> &[u32] {
         let start = (self.first_row(face) + row) * self.stride;
-        &self.item[start..start + self.stride][..self.resolution]
+        &self.item[start..start + self.stride][..self.resolution()]
     }
 
     /// The patch that the cell in a direction above the horizon, in the hemicube's frame, and all around it see, if it
@@ -157,11 +168,11 @@ impl Cells {
         let face =
             (1..FACES.len()).fold(0, |best, k| if depths[k] > depths[best] { k } else { best });
         let (p, shape) = (FACES[face].look(direction), &FACES[face]);
-        let half = self.resolution as f32 / 2.0;
+        let half = self.resolution() as f32 / 2.0;
         let column = ((p.x / p.z + 1.0) * half) as usize;
         let row = ((p.y / p.z - shape.lowest) * half) as usize;
         let is_inside = |at: usize, count: usize| at >= 1 && at + 1 < count;
-        if !is_inside(column, self.resolution) || !is_inside(row, shape.rows(self.resolution)) {
+        if !is_inside(column, self.resolution()) || !is_inside(row, shape.rows(self.resolution())) {
             return None;
         }
         let item = self.items(face, row)[column];
@@ -174,13 +185,13 @@ impl Cells {
     #[inline(always)]
     pub(super) fn depths(&self, face: usize, row: usize) -> &[f32] {
         let start = (self.first_row(face) + row) * self.stride;
-        &self.depth[start..start + self.stride][..self.resolution]
+        &self.depth[start..start + self.stride][..self.resolution()]
     }
 
     /// Rows before those of a face.
     #[inline(always)]
     fn first_row(&self, face: usize) -> usize {
-        let half = self.resolution / 2;
+        let half = self.resolution() / 2;
         if face == 0 { 0 } else { (face + 1) * half }
     }
 }
