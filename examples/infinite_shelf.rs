@@ -5,7 +5,7 @@
 mod shelf;
 
 use radiosity::settings::Method;
-use radiosity::solver::relaxation::{Criteria, Relaxation, Step, System};
+use radiosity::solver::relaxation::{Criteria, Relaxation, RelaxationStep, System};
 use shelf::{ROWS, Row};
 
 /// The strips' names.
@@ -44,7 +44,7 @@ fn animate(method: Method, row: &Row) -> radiosity::Result<()> {
     let criteria = Criteria { residual: 1e-6, change: 0.0, max_shots: 1000 };
     let relaxed = system.relax(Relaxation::new(method, 1.0)?, &criteria);
     println!("\n{}: {} steps", method.name(), relaxed.history.len() - 1);
-    for Step { shots, row, residual, .. } in relaxed.history {
+    for RelaxationStep { shots, row, residual, .. } in relaxed.history {
         let name = row.map_or(" ", |row| NAMES[row]);
         let length = BAR * (residual / criteria.residual).log10();
         println!("{shots:>3} {name} {residual:>9.7} {}", "#".repeat(length.max(0.0) as usize));

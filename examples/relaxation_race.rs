@@ -10,7 +10,7 @@ use radiosity::light::Optics;
 use radiosity::mesh::Mesh;
 use radiosity::page::{Axis, Curve, Plot, Stroke};
 use radiosity::settings::Method;
-use radiosity::solver::relaxation::{Criteria, Relaxation, Step, System};
+use radiosity::solver::relaxation::{Criteria, Relaxation, RelaxationStep, System};
 use radiosity::visibility::Occluders;
 use radiosity::{Length, Settings, load, surfaces_of};
 
@@ -47,7 +47,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let relaxed = system.relax(Relaxation::new(method, omega)?, &criteria);
         let steps = relaxed.history;
         let start = steps[0];
-        let first = |is_there: &dyn Fn(&Step) -> bool| {
+        let first = |is_there: &dyn Fn(&RelaxationStep) -> bool| {
             let found = steps.iter().find(|step| is_there(step));
             found.map_or("-".to_owned(), |step| step.shots.to_string())
         };

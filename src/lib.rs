@@ -106,5 +106,5 @@ pub use glam;
 pub use reconstruct::{TriMesh, reconstruct};
 pub use scene::{Scene, load};
 pub use settings::{Length, Settings};
-pub use solver::{Plan, Solution, solve, solve_by_light, solve_with};
+pub use solver::{Plan, ScaledLight, Solution, solve, solve_by_light, solve_with};
 pub use surface::{Surfaces, faces_of, surfaces_of};

@@ -17,7 +17,7 @@ fn readings(scene: &Scene, settings: &Settings, plane: WorkPlane) -> Vec<Reading
     let surfaces = surfaces_of(scene);
     let places = plane.places(&surfaces).expect("the plane is within the room");
     let solution = solve(&surfaces, settings);
-    read(&surfaces, (settings, &solution), &places, |_| ControlFlow::Continue(()))
+    read(&surfaces, settings, &solution, &places, |_| ControlFlow::Continue(()))
 }
 
 #[test]

@@ -61,7 +61,7 @@ fn lit(scene: &Scene) -> (f64, Energy) {
     let places = WorkPlane { height: 0.75, spacing: 0.5 }.places(&surfaces).expect("it is inside");
     let settings = Settings::draft();
     let solution = solve(&surfaces, &settings);
-    let readings = read(&surfaces, (&settings, &solution), &places, |_| ControlFlow::Continue(()));
+    let readings = read(&surfaces, &settings, &solution, &places, |_| ControlFlow::Continue(()));
     (Evenness::of(&readings).mean, solution.energy)
 }
 

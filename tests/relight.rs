@@ -10,7 +10,8 @@ use radiosity::colour::Rgb;
 use radiosity::reconstruct::reconstruct_by_light;
 use radiosity::scene::{Light, NamedLight};
 use radiosity::solver::Checkpoint;
-use radiosity::{Scene, Settings, Solution, Surfaces, TriMesh, solve_by_light, surfaces_of};
+use radiosity::surface::LightGroup;
+use radiosity::{ScaledLight, Scene, Settings, Solution, TriMesh, solve_by_light, surfaces_of};
 
 /// A room with a lamp, a glowing block and a spot without a surface.
 fn room(lamp: Rgb, spot: Rgb) -> Scene {
@@ -42,12 +43,16 @@ fn apart(scene: &Scene) -> (Solution, TriMesh) {
     let groups = surfaces.light_groups(&patterns);
     let names: Vec<&str> = groups.iter().map(|group| group.name.as_str()).collect();
     assert_eq!(names, ["lamp", "spot*"]);
-    let scene = |group| (surfaces.lit_by(group, &patterns), group.strength);
-    let scenes: Vec<(Surfaces, Rgb)> = groups.iter().map(scene).collect();
+    let scene = |group: &LightGroup| ScaledLight {
+        surfaces: surfaces.lit_by(group, &patterns),
+        strength: group.strength,
+    };
+    let scenes: Vec<ScaledLight> = groups.iter().map(scene).collect();
     let go_on = |_: &radiosity::solver::Progress| ControlFlow::Continue(());
     let mut nowhere = Checkpoint::default();
     let (solution, parts) = solve_by_light(&scenes, &settings(), &mut nowhere, go_on).unwrap();
-    let parts = groups.into_iter().zip(scenes).zip(parts).map(|((g, (s, _)), part)| (g, s, part));
+    let parts =
+        groups.into_iter().zip(scenes).zip(parts).map(|((g, s), part)| (g, s.surfaces, part));
     let mesh = reconstruct_by_light(&surfaces, &solution, parts);
     assert_sane(&mesh);
     (solution, mesh)

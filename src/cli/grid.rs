@@ -73,7 +73,7 @@ impl PlannedGrid {
         meter: &mut Meter,
     ) -> Result<Option<GridFigures>, Error> {
         meter.begin("grid");
-        let readings = read(surfaces, (settings, solution), &self.places, |done| {
+        let readings = read(surfaces, settings, solution, &self.places, |done| {
             meter.advance("grid", done);
             interrupt.flow()
         });

@@ -3,13 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use radiosity::colour::Rgb;
 use radiosity::reconstruct::reconstruct_by_light;
 use radiosity::solver::{Checkpoint, Progress};
 use radiosity::surface::LightGroup;
 use radiosity::{
-    Error, Plan, Result, Settings, Solution, Surfaces, TriMesh, reconstruct, solve_by_light,
-    solve_with,
+    Error, Plan, Result, ScaledLight, Settings, Solution, Surfaces, TriMesh, reconstruct,
+    solve_by_light, solve_with,
 };
 
 use super::interrupt::Interrupt;
@@ -90,14 +89,17 @@ impl Lighting<'_> {
         let Self { surfaces, settings, .. } = self;
         let groups = surfaces.light_groups(patterns);
         check_count(groups.len())?;
-        let scene = |group: &LightGroup| (surfaces.lit_by(group, patterns), group.strength);
-        let scenes: Vec<(Surfaces, Rgb)> = groups.iter().map(scene).collect();
+        let scene = |group: &LightGroup| ScaledLight {
+            surfaces: surfaces.lit_by(group, patterns),
+            strength: group.strength,
+        };
+        let scenes: Vec<ScaledLight> = groups.iter().map(scene).collect();
         let (solution, parts) = self.kept(&scenes, interrupt, meter, |checkpoint, observe| {
             solve_by_light(&scenes, settings, checkpoint, observe)
         })?;
         meter.begin("triangles");
         let parts = groups.into_iter().zip(scenes).zip(parts);
-        let parts = parts.map(|((group, (surfaces, _)), part)| (group, surfaces, part));
+        let parts = parts.map(|((group, scaled), part)| (group, scaled.surfaces, part));
         let mesh = reconstruct_by_light(surfaces, &solution, parts);
         Ok(LitScene { solution, stages: Vec::new(), mesh })
     }

@@ -12,7 +12,7 @@ use crate::light::Direct;
 use crate::mesh::Mesh;
 use crate::settings::Settings;
 use crate::surface::{Surface, Surfaces};
-use crate::visibility::{Met, Occluders};
+use crate::visibility::{Met, Occluders, SurfacePoint};
 
 /// Steps of the R₂ sequence, which fills the unit square evenly ([Roberts 2018]): 1 / g and 1 / g², g³ = g + 1.
 ///
@@ -118,8 +118,10 @@ impl<'a> PathTracer<'a> {
             if carried == Rgb::ZERO {
                 break;
             }
-            let place = (site.place, site.normal);
-            light += carried * self.lamps.glimpse(&self.occluders, place, || numbers.number());
+            let point = SurfacePoint::new(site.place, site.normal);
+            let numbers = &mut numbers;
+            light +=
+                carried * self.lamps.sample_unbiased(&self.occluders, point, || numbers.number());
             if survival < 1.0 && numbers.coin() >= survival {
                 break;
             }

@@ -9,7 +9,8 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 use obvhs::bvh2::Bvh2;
 
-use super::{Lamp, Lamps};
+use super::lamp::Lamp;
+use super::lamps::Lamps;
 use crate::mesh::{Mesh, Patch, PatchId};
 use crate::visibility::hierarchy::hierarchy;
 use crate::visibility::{Blockers, ConvexBody, Occluders, PlanarPolygon};
@@ -52,7 +53,7 @@ impl Candidates {
     ) -> Self {
         let sizes = mesh.patches.iter().map(|patch| bounds(&[patch]));
         let longest = sizes.map(|(low, high)| low.distance(high)).fold(0.0, f64::max);
-        let boxes: Vec<_> = mesh.patches.iter().map(|patch| boxed(bounds(&[patch]))).collect();
+        let boxes: Vec<_> = mesh.patches.iter().map(boxed).collect();
         let tree = hierarchy(&boxes);
         let finder = Finder { lamps, occluders, mesh, tree: &tree, large: LARGE * longest };
         let all = (0..lamps.list.len() as u32)
@@ -65,7 +66,7 @@ impl Candidates {
                 ControlFlow::Break(()) => parts.push((0, all)),
             }
         }
-        let descend = |(): &mut (), (node, around): &Part| finder.descend(*node, around);
+        let descend = |(): &mut (), (node, around): &Branch| finder.descend(*node, around);
         let mut found: Vec<Vec<Region>> = in_batches(&parts, |_| (), descend, observe);
         let rest = parts.drain(found.len()..);
         found.extend(rest.map(|(node, around)| vec![(finder.patches_under(node), around)]));
@@ -85,7 +86,7 @@ impl Candidates {
 }
 
 /// A node of the patches' tree, and the candidates of what is around it.
-type Part = (u32, Vec<Candidate>);
+type Branch = (u32, Vec<Candidate>);
 
 /// Patches that have their candidates in common, and these.
 type Region = (Vec<PatchId>, Vec<Candidate>);
@@ -101,7 +102,7 @@ struct Finder<'a> {
 
 impl Finder<'_> {
     /// The candidates of parts of the tree under a node, from those of the node around it.
-    fn divide(&self, node: u32, around: Vec<Candidate>, parts: &mut Vec<Part>) {
+    fn divide(&self, node: u32, around: Vec<Candidate>, parts: &mut Vec<Branch>) {
         let own = &self.tree.nodes[node as usize];
         let patches = self.patches_under(node);
         if own.is_leaf() || patches.len() <= AT_ONCE {
@@ -152,7 +153,7 @@ impl Finder<'_> {
     /// The candidates of a patch by itself, exact but for what is behind its borders.
     fn of_patch(&self, around: &[Candidate], patch: &Patch) -> Vec<Candidate> {
         let receiver = PlanarPolygon::new(&patch.corners, patch.normal);
-        of_polygon((self.lamps, self.occluders), around.iter(), receiver, 0.0)
+        self.narrowing().of_polygon(around.iter(), receiver, 0.0)
     }
 
     /// Of the candidates of what is around some patches, those of the patches together.
@@ -165,7 +166,11 @@ impl Finder<'_> {
             patches.iter().any(|&patch| reaches(&self.mesh[patch]))
         });
         let body = ConvexBody::cuboid(low, high);
-        unhidden((self.lamps, self.occluders), reaching, &body, |lamp, _| lamp.body())
+        self.narrowing().unhidden(reaching, &body, |lamp, _| lamp.body())
+    }
+
+    fn narrowing(&self) -> Narrowing<'_> {
+        Narrowing { lamps: self.lamps, occluders: self.occluders }
     }
 
     fn patches_under(&self, node: u32) -> Vec<PatchId> {
@@ -184,41 +189,51 @@ impl Finder<'_> {
     }
 }
 
-/// Of the candidates of what is around a polygon, those of the polygon itself; what stands before lamps of which less
-/// than `least` can arrive, W/m², is left as it is.
-pub(super) fn of_polygon<'c>(
-    (lamps, occluders): (&Lamps, &Occluders),
-    around: impl Iterator<Item = &'c Candidate>,
-    receiver: PlanarPolygon<'_>,
-    least: f64,
-) -> Vec<Candidate> {
-    let reaches = |candidate: &&Candidate| lamps.list[candidate.lamp as usize].may_reach(receiver);
-    let (reaching, body) = (around.filter(reaches), ConvexBody::polygon(receiver));
-    let source = |lamp: &Lamp, most: f64| {
-        if most < least { None } else { lamp.body_above(receiver) }
-    };
-    unhidden((lamps, occluders), reaching, &body, source)
+/// What candidates are narrowed by.
+#[derive(Clone, Copy)]
+pub(super) struct Narrowing<'a> {
+    pub(super) lamps: &'a Lamps,
+    pub(super) occluders: &'a Occluders,
 }
 
-/// Candidates, with what may hide them from a receiver; those that one occluder hides are left out.
-fn unhidden<'c>(
-    (lamps, occluders): (&Lamps, &Occluders),
-    candidates: impl Iterator<Item = &'c Candidate>,
-    receiver: &ConvexBody,
-    source: impl Fn(&Lamp, f64) -> Option<ConvexBody>,
-) -> Vec<Candidate> {
-    let narrowed = |Candidate { lamp: number, blockers, .. }: &Candidate| {
-        let lamp = &lamps.list[*number as usize];
-        let most = lamp.most_on(receiver);
-        let source = if blockers.is_clear() { None } else { source(lamp, most) };
-        let ignored = |surface| lamp.is_part(surface);
-        let blockers = match source {
-            Some(source) => occluders.narrowed(blockers, &source, receiver, ignored),
-            None => blockers.clone(),
+impl Narrowing<'_> {
+    /// Of the candidates of what is around a polygon, those of the polygon itself; what stands before lamps of which less
+    /// than `least` can arrive, W/m², is left as it is.
+    pub(super) fn of_polygon<'c>(
+        self,
+        around: impl Iterator<Item = &'c Candidate>,
+        receiver: PlanarPolygon<'_>,
+        least: f64,
+    ) -> Vec<Candidate> {
+        let reaches =
+            |candidate: &&Candidate| self.lamps.list[candidate.lamp as usize].may_reach(receiver);
+        let (reaching, body) = (around.filter(reaches), ConvexBody::polygon(receiver));
+        let source = |lamp: &Lamp, most: f64| {
+            if most < least { None } else { lamp.body_above(receiver) }
         };
-        (blockers != Blockers::Opaque).then_some(Candidate { lamp: *number, blockers, most })
-    };
-    candidates.filter_map(narrowed).collect()
+        self.unhidden(reaching, &body, source)
+    }
+
+    /// Candidates, with what may hide them from a receiver; those that one occluder hides are left out.
+    fn unhidden<'c>(
+        self,
+        candidates: impl Iterator<Item = &'c Candidate>,
+        receiver: &ConvexBody,
+        source: impl Fn(&Lamp, f64) -> Option<ConvexBody>,
+    ) -> Vec<Candidate> {
+        let narrowed = |Candidate { lamp: number, blockers, .. }: &Candidate| {
+            let lamp = &self.lamps.list[*number as usize];
+            let most = lamp.most_on(receiver);
+            let source = if blockers.is_clear() { None } else { source(lamp, most) };
+            let ignored = |surface| lamp.is_part(surface);
+            let blockers = match source {
+                Some(source) => self.occluders.narrowed(blockers, &source, receiver, ignored),
+                None => blockers.clone(),
+            };
+            (blockers != Blockers::Opaque).then_some(Candidate { lamp: *number, blockers, most })
+        };
+        candidates.filter_map(narrowed).collect()
+    }
 }
 
 /// Opposite corners of the box around patches, m.
@@ -227,6 +242,7 @@ fn bounds(patches: &[&Patch]) -> (DVec3, DVec3) {
     (corners().fold(DVec3::INFINITY, DVec3::min), corners().fold(DVec3::NEG_INFINITY, DVec3::max))
 }
 
-fn boxed((low, high): (DVec3, DVec3)) -> obvhs::aabb::Aabb {
+fn boxed(patch: &Patch) -> obvhs::aabb::Aabb {
+    let (low, high) = bounds(&[patch]);
     obvhs::aabb::Aabb::new(low.as_vec3a(), high.as_vec3a())
 }

@@ -4,12 +4,15 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::candidates::Candidate;
+use super::lamp::Lamp;
+use super::lamps::Lamps;
 use super::pool::Pool;
-use super::{Lamp, Lamps, Seen, View, punctual};
-use crate::colour::Rgb;
+use super::punctual;
+use super::view::{Seen, View};
+use crate::colour::{Rgb, strength};
 use crate::light::Direct;
 use crate::scene::Light;
-use crate::visibility::{Blockers, CROWDED, Occluders};
+use crate::visibility::{Blockers, CROWDED, Occluders, SurfacePoint};
 
 /// Lamps that send more than this many tolerated errors are looked at exactly, if that can be done.
 const EXACT: f64 = 4.0;
@@ -27,7 +30,7 @@ const SHARE: f64 = 0.5;
 pub(super) struct Evaluation<'a> {
     lamps: &'a Lamps,
     occluders: &'a Occluders,
-    receiver: (DVec3, DVec3),
+    receiver: SurfacePoint,
     known: Direct,
     /// Lamps that something may stand before.
     open: SmallVec<[(u32, &'a Blockers, View<'a>); 2]>,
@@ -38,10 +41,7 @@ pub(super) struct Evaluation<'a> {
 
 impl<'a> Evaluation<'a> {
     /// Of no lamp yet, at a place with a unit normal.
-    pub(super) fn new(
-        (lamps, occluders): (&'a Lamps, &'a Occluders),
-        receiver: (DVec3, DVec3),
-    ) -> Self {
+    pub(super) fn new(lamps: &'a Lamps, occluders: &'a Occluders, receiver: SurfacePoint) -> Self {
         let (known, open, pool) = (Direct::default(), SmallVec::new(), Pool::default());
         Self { lamps, occluders, receiver, known, open, pool, evaluations: 0, rays: 0 }
     }
@@ -95,7 +95,7 @@ impl<'a> Evaluation<'a> {
         let found = punctual::irradiance(light, self.receiver, self.lamps.blur);
         let Some((sent, source)) = found else { return };
         self.evaluations += 1;
-        self.push(number, sent, blockers, source.end(self.receiver.0, self.occluders));
+        self.push(number, sent, blockers, source.end(self.receiver.position, self.occluders));
     }
 
     fn take(&mut self, view: &View<'_>, seen: Seen) {
@@ -126,7 +126,7 @@ impl<'a> Evaluation<'a> {
         let (lamps, occluders) = (self.lamps, self.occluders);
         let sees = |lamp: u32, at: DVec3| {
             let is_own = |surface| lamps.list[lamp as usize].is_part(surface);
-            !occluders.blocks_beyond(self.receiver.0, at, is_own)
+            !occluders.blocks_beyond(self.receiver.position, at, is_own)
         };
         let (light, rays) = self.pool.shine(SHARE * error, sees);
         self.known.irradiance += light;
@@ -144,9 +144,4 @@ impl<'a> Evaluation<'a> {
         let sampled = || view.sampled(occluders, SHARE * error / sent * view.weight);
         exact.flatten().unwrap_or_else(sampled)
     }
-}
-
-/// Mean of the channels.
-pub(super) fn strength(light: Rgb) -> f64 {
-    light.element_sum() / 3.0
 }

@@ -8,11 +8,11 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
-use super::RadianceProfile;
-use super::view::{Receiver, View};
+use super::profile::RadianceProfile;
+use super::view::View;
 use crate::colour::Rgb;
 use crate::surface::{Surface, Surfaces, Weld};
-use crate::visibility::{HalfSpace, Polygon};
+use crate::visibility::{HalfSpace, Polygon, SurfacePoint};
 
 /// Bodies of fewer facets are lamps facet by facet: few enough, and their edges make shadows with lines of their own.
 const LEAST_FACETS: usize = 13;
@@ -185,9 +185,9 @@ impl Globe {
     }
 
     /// As a place with a unit normal sees it.
-    pub(super) fn view(&self, receiver: Receiver) -> Option<View<'_>> {
-        let (outline, normal) = self.silhouette(receiver.0)?;
-        let horizon = HalfSpace::new(receiver.0, receiver.1);
+    pub(super) fn view(&self, receiver: SurfacePoint) -> Option<View<'_>> {
+        let (outline, normal) = self.silhouette(receiver.position)?;
+        let horizon = HalfSpace::new(receiver.position, receiver.normal);
         let polygon = horizon.clip(&outline);
         let profile = RadianceProfile::Diffuse;
         (!polygon.is_empty()).then(|| View {

@@ -4,12 +4,12 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::RadianceProfile;
 use super::globe::Globe;
-use super::view::{FAR, Receiver, View};
+use super::profile::RadianceProfile;
+use super::view::{FAR, View};
 use crate::colour::Rgb;
 use crate::scene::{Light, area_vector};
-use crate::visibility::{ConvexBody, HalfSpace, PlanarPolygon, Polygon};
+use crate::visibility::{ConvexBody, HalfSpace, PlanarPolygon, Polygon, SurfacePoint};
 
 /// An emitter.
 #[derive(Clone, Debug)]
@@ -88,7 +88,8 @@ impl Lamp {
 
     /// What arrives at a place if nothing stands between, W/m², and from where, by the middle of a polygon that looks
     /// small; `None` of all others.
-    pub(super) fn glance(&self, (place, normal): Receiver) -> Option<(Rgb, DVec3)> {
+    pub(super) fn glance(&self, receiver: SurfacePoint) -> Option<(Rgb, DVec3)> {
+        let SurfacePoint { position: place, normal } = receiver;
         let Self::Area(lamp) = self else { return None };
         let middle = lamp.corners.iter().sum::<DVec3>() / lamp.corners.len() as f64;
         let (way, area) = (middle - place, area_vector(&lamp.corners).length());
@@ -122,7 +123,7 @@ impl Lamp {
     }
 
     /// As a place with a unit normal sees it, if it sees something; lights without a surface have no view.
-    pub(super) fn view(&self, receiver: Receiver) -> Option<View<'_>> {
+    pub(super) fn view(&self, receiver: SurfacePoint) -> Option<View<'_>> {
         match self {
             Self::Area(lamp) => lamp.view(receiver),
             Self::Globe(globe) => globe.view(receiver),
@@ -132,11 +133,11 @@ impl Lamp {
 }
 
 impl AreaLamp {
-    fn view(&self, receiver: Receiver) -> Option<View<'_>> {
-        if self.front.depth(receiver.0) <= 0.0 {
+    fn view(&self, receiver: SurfacePoint) -> Option<View<'_>> {
+        if self.front.depth(receiver.position) <= 0.0 {
             return None;
         }
-        let polygon = self.above_plane(HalfSpace::new(receiver.0, receiver.1));
+        let polygon = self.above_plane(HalfSpace::new(receiver.position, receiver.normal));
         (!polygon.is_empty()).then(|| View {
             weight: self.profile.weight(receiver, &polygon),
             receiver,

@@ -6,15 +6,17 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::candidates::{self, Candidate, Candidates};
-use super::evaluation::{Evaluation, POOLED, strength};
+use super::candidates::{Candidate, Candidates, Narrowing};
+use super::evaluation::{Evaluation, POOLED};
+use super::lamp::Lamp;
+use super::lamps::Lamps;
 use super::lines::{Line, Shining};
-use super::{Lamp, Lamps, punctual};
-use crate::colour::Rgb;
+use super::punctual;
+use crate::colour::{Rgb, strength};
 use crate::light::Direct;
 use crate::mesh::{Mesh, PatchId};
 use crate::scene::boxes::{self, Aabb};
-use crate::visibility::{Blockers, CROWDED, ConvexBody, Occluders, PlanarPolygon};
+use crate::visibility::{Blockers, CROWDED, ConvexBody, Occluders, PlanarPolygon, SurfacePoint};
 
 /// Lamps that can send no more than this share of a tolerated error anywhere on a patch are looked at together there, by
 /// what their middles send.
@@ -110,7 +112,7 @@ impl PatchLight {
 
     /// What would arrive at a place on a patch if nothing stood between, W/m².
     pub fn unoccluded(&self, patch: PatchId, place: DVec3) -> Rgb {
-        let receiver = (place, self.normals[patch.index()]);
+        let receiver = SurfacePoint::new(place, self.normals[patch.index()]);
         let Outlook { around, faint, .. } = self.on(patch);
         let sent = |candidate: &Candidate| {
             let lamp = &self.lamps.list[candidate.lamp as usize];
@@ -135,7 +137,7 @@ impl PatchLight {
         place: DVec3,
         chosen: impl Fn(u32) -> bool,
     ) -> Option<Rgb> {
-        let receiver = (place, self.normals[patch.index()]);
+        let receiver = SurfacePoint::new(place, self.normals[patch.index()]);
         let candidates = self.candidates.of(patch).iter();
         let mut light = Rgb::ZERO;
         for Candidate { lamp, blockers, .. } in
@@ -217,12 +219,12 @@ impl<'a> Outlook<'a> {
             return self.clone();
         }
         let receiver = PlanarPolygon::new(corners, light.normals[self.patch.index()]);
-        let scene = (&light.lamps, &light.occluders);
+        let narrowing = Narrowing { lamps: &light.lamps, occluders: &light.occluders };
         let own = match &self.own {
-            Some(own) => candidates::of_polygon(scene, own.iter(), receiver, self.faint),
+            Some(own) => narrowing.of_polygon(own.iter(), receiver, self.faint),
             None => {
                 let strong = self.around.iter().filter(is_strong);
-                candidates::of_polygon(scene, strong, receiver, self.faint)
+                narrowing.of_polygon(strong, receiver, self.faint)
             }
         };
         Self { own: Some(own), ..*self }
@@ -260,7 +262,7 @@ impl<'a> Outlook<'a> {
     fn within(&self, place: DVec3, tolerated: impl Fn(f64) -> f64) -> Direct {
         let normal = self.light.normals[self.patch.index()];
         let PatchLight { lamps, occluders, .. } = self.light;
-        let mut work = Evaluation::new((lamps, occluders), (place, normal));
+        let mut work = Evaluation::new(lamps, occluders, SurfacePoint::new(place, normal));
         for candidate in self.candidates() {
             if candidate.most >= self.faint || !work.add_faint(candidate) {
                 work.add(candidate);
@@ -294,7 +296,7 @@ fn most_by(lamp: &Lamp, receiver: PlanarPolygon<'_>) -> f64 {
     let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
     let views = corners.iter().chain([&middle]).filter_map(|&at| {
         // The corners of what is on one plane with the lamp see nothing of it.
-        lamp.view((at.lerp(middle, 1e-3), receiver.plane.normal))
+        lamp.view(SurfacePoint::new(at.lerp(middle, 1e-3), receiver.plane.normal))
     });
     views.map(|view| strength(view.unoccluded())).fold(0.0, f64::max)
 }

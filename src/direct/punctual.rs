@@ -4,11 +4,11 @@ use std::f64::consts::PI;
 
 use glam::{DQuat, DVec3};
 
-use super::sky::solid_angle;
+use super::profile::solid_angle;
 use crate::colour::{LUMENS_PER_WATT, Rgb};
 use crate::light::Direct;
 use crate::scene::Light;
-use crate::visibility::Occluders;
+use crate::visibility::{Occluders, SurfacePoint};
 
 /// Where the light of a punctual light comes from, as seen from a place.
 pub(super) enum Source {
@@ -45,9 +45,10 @@ const CORNERS: usize = 8;
 pub(super) fn shine(
     light: &Light,
     occluders: &Occluders,
-    (place, normal): (DVec3, DVec3),
+    receiver: SurfacePoint,
 ) -> Option<(Direct, u64)> {
-    let (unoccluded, source) = irradiance(light, (place, normal), 0.0)?;
+    let (unoccluded, source) = irradiance(light, receiver, 0.0)?;
+    let place = receiver.position;
     let hidden = occluders.blocks(place, source.end(place, occluders));
     let irradiance = if hidden { Rgb::ZERO } else { unoccluded };
     Some((Direct { irradiance, unoccluded }, 1))
@@ -60,9 +61,10 @@ pub(super) fn shine(
 /// Ω of triangles of area A in all: so all that it sends towards a surface arrives, however near it is.
 pub(super) fn irradiance(
     light: &Light,
-    (place, normal): (DVec3, DVec3),
+    receiver: SurfacePoint,
     radius: f64,
 ) -> Option<(Rgb, Source)> {
+    let SurfacePoint { position: place, normal } = receiver;
     let (irradiance, from) = match *light {
         // Not of a point: they are among the areas.
         Light::Sun { .. } | Light::Sky { .. } => return None,
@@ -77,7 +79,7 @@ pub(super) fn irradiance(
                 return None;
             }
             let irradiance = if distance < NEAR * radius {
-                on_disc(light, position, (place, normal), radius)
+                on_disc(light, position, receiver, radius)
             } else {
                 intensity(light, -way / distance) * (height / distance.powi(3))
             };
@@ -88,7 +90,8 @@ pub(super) fn irradiance(
 }
 
 /// Mean irradiance of a disc that faces a point, W/m², its middle counting most: that of discs of several radii.
-fn on_disc(light: &Light, position: DVec3, (place, normal): (DVec3, DVec3), radius: f64) -> Rgb {
+fn on_disc(light: &Light, position: DVec3, receiver: SurfacePoint, radius: f64) -> Rgb {
+    let SurfacePoint { position: place, normal } = receiver;
     let turn = 2.0 * PI / CORNERS as f64;
     let (x, y) = normal.any_orthonormal_pair();
     let (mut flux, mut area) = (Rgb::ZERO, 0.0);
@@ -159,7 +162,8 @@ mod tests {
             let at = |k: i32| step * (f64::from(k) + 0.3);
             let places =
                 (-40..40).flat_map(|i| (-40..40).map(move |j| DVec3::new(at(i), at(j), 0.0)));
-            let found = places.filter_map(|place| irradiance(&light, (place, DVec3::Z), 0.1));
+            let found = places
+                .filter_map(|place| irradiance(&light, SurfacePoint::new(place, DVec3::Z), 0.1));
             let flux: f64 = found.map(|(irradiance, _)| irradiance.x * step * step).sum();
             let expected = 2.0 * PI * share;
             assert!((flux / expected - 1.0).abs() < 0.01, "{flux} W of {expected} from {height} m");

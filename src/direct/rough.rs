@@ -2,30 +2,32 @@
 
 use glam::DVec3;
 
-use super::glimpse::place_on;
-use super::{Lamp, Lamps, punctual};
+use super::lamp::Lamp;
+use super::lamps::Lamps;
+use super::punctual;
+use super::unbiased::place_on;
 use crate::colour::Rgb;
 use crate::light::Direct;
-use crate::visibility::Occluders;
+use crate::visibility::{Occluders, SurfacePoint};
 
 /// Rays from a place, at least: where there are fewer lamps, several go to each.
 const RAYS: usize = 8;
 
 /// The number of a lamp, what it sends to a place if nothing hides it, W/m², and where a ray to it ends.
-type Sent = (u32, Rgb, DVec3);
+type LampRay = (u32, Rgb, DVec3);
 
 impl Lamps {
-    /// What arrives at a place with unit `normal`, by rays to places on the lamps that `random` chooses, even in 0..1.
+    /// What arrives at a point of a surface, by rays to places on the lamps that `random` chooses, even in 0..1.
     ///
     /// What would arrive if nothing stood between is exact; of that counts what the rays reach. Of many lamps, those
     /// that send most are asked for all, each as often as it sends.
     pub fn rough(
         &self,
         occluders: &Occluders,
-        (place, normal): (DVec3, DVec3),
+        receiver: SurfacePoint,
         mut random: impl FnMut() -> f64,
     ) -> Direct {
-        let sent = self.sent((place, normal), occluders, &mut random);
+        let sent = self.sent(receiver, occluders, &mut random);
         let unoccluded: Rgb = sent.iter().map(|(_, light, _)| *light).sum();
         let all = unoccluded.element_sum();
         if all <= 0.0 {
@@ -40,7 +42,7 @@ impl Lamps {
             let count = steps(passed + strength) - steps(passed);
             passed += strength;
             let is_own = |surface| self.list[*number as usize].is_part(surface);
-            if count > 0.0 && !occluders.blocks_beyond(place, *end, is_own) {
+            if count > 0.0 && !occluders.blocks_beyond(receiver.position, *end, is_own) {
                 irradiance += *light * (count * all / (strength * RAYS as f64));
             }
         }
@@ -50,10 +52,10 @@ impl Lamps {
     /// What each lamp sends, or each of some parts of a few, and places on them.
     fn sent(
         &self,
-        receiver: (DVec3, DVec3),
+        receiver: SurfacePoint,
         occluders: &Occluders,
         random: &mut impl FnMut() -> f64,
-    ) -> Vec<Sent> {
+    ) -> Vec<LampRay> {
         let each = RAYS.div_ceil(self.list.len().max(1));
         let mut sent = Vec::new();
         for (number, lamp) in (0..).zip(&self.list) {
@@ -69,7 +71,7 @@ impl Lamps {
             } else if let Lamp::Point(point) = lamp
                 && let Some((light, source)) = punctual::irradiance(point, receiver, self.blur)
             {
-                sent.push((number, light, source.end(receiver.0, occluders)));
+                sent.push((number, light, source.end(receiver.position, occluders)));
             }
         }
         sent

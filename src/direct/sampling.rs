@@ -14,6 +14,18 @@ const MOST_RAYS: u64 = 288;
 /// Most rows of cells on each triangle to begin with: more would not find what fewer miss at a tenth of the cost.
 const MOST_ROWS: f64 = 4.0;
 
+impl View<'_> {
+    /// What is not hidden, by rays: right to within `error` of the exitance, unless that takes too many.
+    pub(super) fn sampled(&self, occluders: &Occluders, error: f64) -> Seen {
+        Sampling::new(self, occluders, error).run()
+    }
+
+    /// What is not hidden, by a ray to each of the cells in so many rows on each of its triangles.
+    pub(super) fn sampled_evenly(&self, occluders: &Occluders, rows: u32) -> Seen {
+        Sampling::evenly(self, occluders, rows).all_cells()
+    }
+}
+
 /// A triangle of a lamp, and the ray to its middle.
 #[derive(Clone, Copy)]
 struct Cell {

@@ -5,8 +5,9 @@ use std::f64::consts::{PI, TAU};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
+use super::lamp::Lamp;
+use super::lamps::Lamps;
 use super::punctual::intensity;
-use super::{Lamp, Lamps};
 use crate::colour::{LUMENS_PER_WATT, Rgb};
 use crate::scene::Light;
 use crate::visibility::Occluders;
@@ -34,7 +35,7 @@ impl Lamps {
         is_back: impl Fn(u32) -> bool + Sync,
     ) -> Sent {
         let sent = |lamp: &Lamp| match lamp {
-            Lamp::Point(light) => sent_by((light, light.position()?), occluders, &is_back),
+            Lamp::Point(light) => sent_by(light, occluders, &is_back),
             Lamp::Area(_) | Lamp::Globe(_) => None,
         };
         let each: Vec<Sent> = self.list.par_iter().filter_map(sent).collect();
@@ -46,11 +47,8 @@ impl Lamps {
     }
 }
 
-fn sent_by(
-    (light, position): (&Light, DVec3),
-    occluders: &Occluders,
-    is_back: &impl Fn(u32) -> bool,
-) -> Option<Sent> {
+fn sent_by(light: &Light, occluders: &Occluders, is_back: &impl Fn(u32) -> bool) -> Option<Sent> {
+    let position = light.position()?;
     let (mut all, mut past, mut behind) = (Rgb::ZERO, Rgb::ZERO, Rgb::ZERO);
     for ray in 0..RAYS {
         let away = direction(light, ray);

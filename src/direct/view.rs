@@ -2,23 +2,19 @@
 
 use glam::DVec3;
 
-use super::RadianceProfile;
-use super::sampling::Sampling;
+use super::profile::RadianceProfile;
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
 use crate::light::Direct;
-use crate::visibility::{Blockers, Occluders, PlanarPolygon, Polygon, Pyramid};
+use crate::visibility::{Blockers, Occluders, PlanarPolygon, Polygon, Pyramid, SurfacePoint};
 
 /// Polygons of a smaller area than this share of the squared distance are taken for points.
 pub(super) const FAR: f64 = 0.01;
 
-/// Where light arrives: a place, m, and its unit normal.
-pub(super) type Receiver = (DVec3, DVec3);
-
 /// The part of a lamp above the horizon of a place, as a convex polygon.
 #[derive(Clone, Debug)]
 pub(super) struct View<'a> {
-    pub(super) receiver: Receiver,
+    pub(super) receiver: SurfacePoint,
     pub(super) polygon: Polygon,
     /// Unit normal of the polygon, towards the place.
     pub(super) normal: DVec3,
@@ -68,31 +64,21 @@ impl View<'_> {
             return Some(self.all());
         }
         let base = PlanarPolygon::new(&self.polygon, self.normal);
-        let view = Pyramid { apex: self.receiver.0, base };
+        let view = Pyramid { apex: self.receiver.position, base };
         let is_own = |surface| self.is_own(surface);
         let pieces = occluders.visible_among(view, blockers, most, is_own)?;
         let weight = pieces.iter().map(|piece| self.profile.weight(self.receiver, piece)).sum();
         Some(Seen { weight, rays: 0 })
     }
 
-    /// What is not hidden, by rays: right to within `error` of the exitance, unless that takes too many.
-    pub(super) fn sampled(&self, occluders: &Occluders, error: f64) -> Seen {
-        Sampling::new(self, occluders, error).run()
-    }
-
-    /// What is not hidden, by a ray to each of the cells in so many rows on each of its triangles.
-    pub(super) fn sampled_evenly(&self, occluders: &Occluders, rows: u32) -> Seen {
-        Sampling::evenly(self, occluders, rows).all_cells()
-    }
-
     /// Whether a place on it is seen.
     pub(super) fn sees(&self, occluders: &Occluders, at: DVec3) -> bool {
-        !occluders.blocks_beyond(self.receiver.0, at, |surface| self.is_own(surface))
+        !occluders.blocks_beyond(self.receiver.position, at, |surface| self.is_own(surface))
     }
 
     /// Irradiance by a triangle of it, as a share of the exitance: the smaller it looks, the more exact.
     pub(super) fn weight_of(&self, triangle: &[DVec3; 3]) -> f64 {
-        let (place, normal) = self.receiver;
+        let SurfacePoint { position: place, normal } = self.receiver;
         let [a, b, c] = *triangle;
         let (middle, sides) = ((a + b + c) / 3.0, (b - a).cross(c - a));
         let towards = middle - place;
@@ -106,7 +92,7 @@ impl View<'_> {
 
     /// Weight of a small piece of it over its area, 1/m²: cos cos / (π d²) where it glows evenly.
     pub(super) fn kernel(&self, at: DVec3) -> f64 {
-        let (place, normal) = self.receiver;
+        let SurfacePoint { position: place, normal } = self.receiver;
         let way = at - place;
         let square = way.length_squared();
         let cosines = way.dot(normal).max(0.0) * (-way.dot(self.normal)).max(0.0);

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::file;
-use crate::solver::relaxation::Step;
+use crate::solver::relaxation::RelaxationStep;
 
 /// What the columns are called.
 const COLUMNS: &str = "shots,patch,residual,unshot";
@@ -18,7 +18,7 @@ const COLUMNS: &str = "shots,patch,residual,unshot";
 ///
 /// # Errors
 /// When the file cannot be written.
-pub fn save_history(steps: &[Step], path: &Path) -> Result<()> {
+pub fn save_history(steps: &[RelaxationStep], path: &Path) -> Result<()> {
     check_ending(path)?;
     file::replace(path, |out| write(steps, out))
 }
@@ -40,9 +40,9 @@ pub(super) fn check_ending(path: &Path) -> Result<()> {
     Err(Error::UnknownFormat { path: path.to_owned(), known: ".csv" })
 }
 
-fn write(steps: &[Step], out: &mut impl Write) -> io::Result<()> {
+fn write(steps: &[RelaxationStep], out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "{COLUMNS}")?;
-    for Step { shots, row, residual, unshot, .. } in steps {
+    for RelaxationStep { shots, row, residual, unshot, .. } in steps {
         let patch = row.map(|row| row.to_string()).unwrap_or_default();
         writeln!(out, "{shots},{patch},{residual:e},{unshot:e}")?;
     }

@@ -4,13 +4,14 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
-use super::landmarks::Landmarks;
-use super::{Corners, Element, ElementId, Mesh, Patch, PatchId, Reason, Vertex, VertexId};
+use super::ids::{ElementId, PatchId, VertexId};
+use super::topology::{Corners, Element, Mesh, Patch, Reason, Vertex};
+use super::vertex_index::{SurfaceVertices, VertexIndex, apart};
 use crate::scene::boxes::{self, Tree, are_close};
 use crate::settings::Settings;
 use crate::surface::cut::{Cuts, convex_pieces};
 use crate::surface::polygon::{self, Convex, Segment};
-use crate::surface::{Cells, Contact, Plane, Surface, Surfaces, cell_key, cells_around};
+use crate::surface::{Contact, Plane, Surface, Surfaces, cells_around};
 
 /// How far inside a border light is evaluated, in tolerances: well beyond what counts as touching it.
 const INSET: f64 = 50.0;
@@ -18,43 +19,8 @@ const INSET: f64 = 50.0;
 /// Ends of cuts nearer to a vertex on the same edge than this share of it are moved there: less would be slivers.
 const CLOSE: f64 = 1.0 / 32.0;
 
-/// But none is moved farther than so many of the shortest sides that elements may have.
-const FARTHEST: f64 = 4.0;
-
-/// Vertices of a surface are farther apart than so many tolerances, and than this share of its width if that is less:
-/// more than twice what counts as one place in the triangle mesh, so that no two of a surface become one there.
-const APART: f64 = 25.0;
-const APART_FOR_WIDTH: f64 = 0.01;
-
-/// Sine of the least angle by which an outline bends at a corner.
-const STRAIGHT: f64 = 1e-6;
-
 /// Surfaces whose pieces are cut at a time: enough for all threads, few enough to forget.
 const AT_ONCE: usize = 4096;
-
-/// Finds the vertex at a place.
-#[derive(Clone, Debug)]
-pub(super) struct VertexIndex {
-    sheets: Vec<Sheet>,
-    /// Vertices by surface and place on it; at one place, where a contact line runs through it, one for each patch.
-    cells: Cells,
-    /// Places of vertices of all surfaces.
-    landmarks: Landmarks,
-    /// Shortest side that elements may have, m.
-    shortest: f64,
-    tolerance: f64,
-}
-
-/// What of a surface its vertices depend on.
-#[derive(Clone, Debug)]
-struct Sheet {
-    plane: Plane,
-    /// Its vertices are farther apart than that, m.
-    apart: f64,
-    /// Contact lines, and corners at which the surface bends round something: light may be another on
-    /// each side.
-    contacts: Vec<Contact>,
-}
 
 /// What a patch is made from.
 struct Piece {
@@ -178,7 +144,7 @@ impl Mesh {
     /// The vertex of a patch at a place on an edge; where one of any surface is close by on it, at that place.
     pub(super) fn vertex_on(&mut self, patch: PatchId, edge: Segment, position: DVec2) -> VertexId {
         self.mark();
-        let Sheet { plane, .. } = &self.index.sheets[self[patch].surface as usize];
+        let SurfaceVertices { plane, .. } = &self.index.sheets[self[patch].surface as usize];
         let reach = CLOSE * edge[0].distance(edge[1]);
         let flat = |place: DVec3| {
             let flat = plane.flatten(place);
@@ -234,7 +200,7 @@ impl Mesh {
     /// The contact lines that run through a place on a patch.
     fn contacts_at(&self, patch: PatchId, position: DVec2) -> impl Iterator<Item = &Contact> {
         let Patch { surface, contacts, .. } = &self[patch];
-        let Sheet { contacts: lines, apart, .. } = &self.index.sheets[*surface as usize];
+        let SurfaceVertices { contacts: lines, apart, .. } = &self.index.sheets[*surface as usize];
         let lines = contacts.iter().map(|&line| &lines[line as usize]);
         lines.filter(move |line| polygon::distance(line.segment, position) <= *apart)
     }
@@ -296,75 +262,38 @@ impl Mesh {
 }
 
 /// The outlines of the patches of a surface.
-fn outlines((surfaces, surface): (&Surfaces, &Surface), settings: &Settings) -> Vec<Convex> {
+fn outlines(surfaces: &Surfaces, surface: &Surface, settings: &Settings) -> Vec<Convex> {
     let size = settings.patch_length(surfaces.extent.max(surface.extent()));
     let segments: Vec<Segment> = surface.contacts.iter().map(|line| line.segment).collect();
     let cuts = Cuts { segments: &segments, size, tolerance: apart(surfaces, surface) };
     convex_pieces(&surface.rings, &cuts)
 }
 
-/// How far apart the vertices of a surface are at least, m.
-fn apart(surfaces: &Surfaces, surface: &Surface) -> f64 {
-    let edges = surface.rings.iter().flat_map(|ring| polygon::edges(ring));
-    let perimeter: f64 = edges.map(|[a, b]| a.distance(b)).sum();
-    let width = 2.0 * surface.area() / perimeter.max(f64::MIN_POSITIVE);
-    (APART * surfaces.tolerance).min(APART_FOR_WIDTH * width).max(surfaces.tolerance)
-}
-
 /// How many patches each surface will be divided into: much quicker told than made.
 pub fn patch_counts(surfaces: &Surfaces, settings: &Settings) -> Vec<usize> {
-    let count = |surface| outlines((surfaces, surface), settings).len();
+    let count = |surface| outlines(surfaces, surface, settings).len();
     surfaces.list.par_iter().map(count).collect()
 }
 
 impl VertexIndex {
-    fn new(surfaces: &Surfaces, settings: &Settings) -> Self {
-        let tolerance = surfaces.tolerance;
-        let sheet = |surface: &Surface| Sheet {
-            plane: surface.plane,
-            apart: apart(surfaces, surface),
-            contacts: surface.contacts.iter().copied().chain(inner_corners(surface)).collect(),
-        };
-        let sheets = surfaces.list.iter().map(sheet).collect();
-        let shortest = settings.min_element.metres(surfaces.extent);
-        let landmarks = Landmarks::new(tolerance, (FARTHEST * shortest).max(tolerance));
-        Self { sheets, cells: Cells::default(), landmarks, shortest, tolerance }
-    }
-
-    /// The cell around a place on a surface.
-    fn key(&self, surface: u32, place: DVec2) -> u64 {
-        cell_key(surface, place.extend(0.0), self.sheets[surface as usize].apart)
-    }
-
     /// The pieces of a surface, in the order of its patches.
     fn pieces(&self, surfaces: &Surfaces, number: u32, settings: &Settings) -> Vec<Piece> {
         let surface = &surfaces.list[number as usize];
-        let Sheet { contacts, apart, .. } = &self.sheets[number as usize];
+        let SurfaceVertices { contacts, apart, .. } = &self.sheets[number as usize];
         let flat = |line: &Contact| boxes::around(line.segment.map(|p| p.extend(0.0)));
         let tree = Tree::new(contacts.iter().map(flat).collect());
         let piece = |outline: Convex| Piece {
-            contacts: touching((contacts, &tree), &outline, *apart),
+            contacts: touching(contacts, &tree, &outline, *apart),
             outline,
         };
-        outlines((surfaces, surface), settings).into_iter().map(piece).collect()
+        outlines(surfaces, surface, settings).into_iter().map(piece).collect()
     }
-}
-
-/// The corners of a surface of more than 180°, as lines without length.
-fn inner_corners(surface: &Surface) -> impl Iterator<Item = Contact> + '_ {
-    surface.rings.iter().flat_map(|ring| {
-        let n = ring.len();
-        (0..n).filter_map(move |k| {
-            let [before, at, after] = [ring[(k + n - 1) % n], ring[k], ring[(k + 1) % n]];
-            let turn = (at - before).normalize_or_zero().perp_dot((after - at).normalize_or_zero());
-            (turn < -STRAIGHT).then_some(Contact { segment: [at, at], gap: 0.0 })
-        })
-    })
 }
 
 /// Indices of the lines, with a tree over them, that come near a convex polygon.
 fn touching(
-    (lines, tree): (&[Contact], &Tree),
+    lines: &[Contact],
+    tree: &Tree,
     outline: &[DVec2],
     tolerance: f64,
 ) -> SmallVec<[u32; 4]> {

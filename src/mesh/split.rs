@@ -7,7 +7,8 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-use super::{Corners, Element, ElementId, Mesh, Reason, VertexId};
+use super::ids::{ElementId, VertexId};
+use super::topology::{Corners, Element, Mesh, Reason};
 use crate::surface::polygon::{self, Convex};
 
 /// A quadrilateral this much longer than wide is halved, not quartered.

@@ -5,7 +5,8 @@ use std::fmt::{self, Display, Formatter};
 
 use serde::Serialize;
 
-use super::{ElementId, Mesh, Reason};
+use super::ids::ElementId;
+use super::topology::{Mesh, Reason};
 
 /// Elements divided, by reason.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]

@@ -1,6 +1,7 @@
 //! A mesh can check itself.
 
-use super::{ElementId, Mesh};
+use super::ids::ElementId;
+use super::topology::Mesh;
 
 impl Mesh {
     /// Checks that children cover their parents and trees hang together.

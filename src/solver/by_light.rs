@@ -15,8 +15,9 @@ use super::groups::Groups;
 use super::interpolate::{REFLECTED, interpolate};
 use super::lit::Lit;
 use super::observer::Observer;
-use super::solution::{Progress, Solution, Stop};
+use super::solution::{Progress, Solution};
 use super::start::{DARK, check_reflectances, lamps_on};
+use super::stop::Stop;
 use super::work::Work;
 use crate::colour::Rgb;
 use crate::direct::PatchLight;
@@ -26,7 +27,16 @@ use crate::mesh::{Mesh, VertexId};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 
-/// A scene in which one group of lights alone shines.
+/// A scene in which one group of lights alone shines, see [`Surfaces::lit_by`].
+#[derive(Debug)]
+pub struct ScaledLight {
+    /// The surfaces, lit by that group alone, at a strength of 1.
+    pub surfaces: Surfaces,
+    /// The strength that it has in the sum.
+    pub strength: Rgb,
+}
+
+/// The same, ready to be solved.
 struct Alone<'a> {
     surfaces: &'a Surfaces,
     lamps: PatchLight,
@@ -37,25 +47,27 @@ struct Alone<'a> {
 /// Lights the same surfaces under each of several lights, all on the same mesh: the solution of each, and their sum
 /// at these strengths.
 ///
-/// `scenes` has each light alone and its strength, see [`Surfaces::lit_by`]. What is told of each and of the sum, is of the
+/// `scenes` has each light alone and its strength. What is told of each and of the sum, is of the
 /// way to them; elements of [`Solution::light`] are those that the first light had.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
 pub fn solve_by_light(
-    scenes: &[(Surfaces, Rgb)],
+    scenes: &[ScaledLight],
     settings: &Settings,
     checkpoint: &mut Checkpoint,
     mut observe: impl FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<(Solution, Vec<Solution>)> {
-    let Some((first, _)) = scenes.first() else { return Err(Error::Scene(DARK.to_owned())) };
+    let Some(ScaledLight { surfaces: first, .. }) = scenes.first() else {
+        return Err(Error::Scene(DARK.to_owned()));
+    };
     first.check()?;
     settings.validate()?;
     let settings = &checkpoint.settings(settings);
     let mut observer = Observer::new(&mut observe, checkpoint);
     let alone: Vec<Alone<'_>> = scenes
         .iter()
-        .map(|(surfaces, _)| Alone::new(surfaces, settings, &mut observer))
+        .map(|scaled| Alone::new(&scaled.surfaces, settings, &mut observer))
         .collect::<Result<_>>()?;
     let mut mesh = Mesh::new(first, settings);
     let mut lights = vec![VertexLight::default(); alone.len()];
@@ -83,7 +95,7 @@ pub fn solve_by_light(
         exchange.solution(mesh, alone.optics.clone(), light)
     };
     let solutions: Vec<Solution> = alone.iter().zip(lights).zip(exchanges).map(finish).collect();
-    let strengths: Vec<Rgb> = scenes.iter().map(|(_, strength)| *strength).collect();
+    let strengths: Vec<Rgb> = scenes.iter().map(|scaled| scaled.strength).collect();
     Ok((sum(&solutions, &strengths), solutions))
 }
 

@@ -283,24 +283,33 @@ impl Round<'_, '_> {
         }
         let (plane, reflectance) = (mesh.plane(patch), context.optics.reflectance[patch.index()]);
         let corners = mesh[element].corners.iter();
-        let corners: Vec<(DVec2, Rgb)> =
-            corners.map(|&v| (mesh[v].position, light.direct_irradiance(v))).collect();
-        probes(&corners).into_iter().any(|(position, expected)| {
-            let Direct { irradiance, .. } = outlook.at(plane.lift(position));
-            strength(reflectance * (irradiance - expected)) > allowed
+        let corners: Vec<Probe> = corners
+            .map(|&v| Probe { position: mesh[v].position, irradiance: light.direct_irradiance(v) })
+            .collect();
+        probes(&corners).into_iter().any(|probe| {
+            let Direct { irradiance, .. } = outlook.at(plane.lift(probe.position));
+            strength(reflectance * (irradiance - probe.irradiance)) > allowed
         })
     }
 }
 
+/// A place on an element, and the irradiance there, W/m².
+#[derive(Clone, Copy, Default)]
+struct Probe {
+    position: DVec2,
+    irradiance: Rgb,
+}
+
 /// Places inside a quadrilateral or triangle off its midlines, with interpolated values.
-fn probes(corners: &[(DVec2, Rgb)]) -> Vec<(DVec2, Rgb)> {
+fn probes(corners: &[Probe]) -> Vec<Probe> {
     let at = |k: usize| (k as f64 + 0.5) / PROBES as f64;
     let grid = (0..PROBES).flat_map(|i| (0..PROBES).map(move |j| (at(i), at(j))));
     let blend = |weights: &[f64]| {
-        let sum = |(p, l): (DVec2, Rgb), ((position, light), w): (&(DVec2, Rgb), &f64)| {
-            (p + *position * *w, l + *light * *w)
+        let sum = |sum: Probe, (corner, weight): (&Probe, &f64)| Probe {
+            position: sum.position + corner.position * *weight,
+            irradiance: sum.irradiance + corner.irradiance * *weight,
         };
-        corners.iter().zip(weights).fold((DVec2::ZERO, Rgb::ZERO), sum)
+        corners.iter().zip(weights).fold(Probe::default(), sum)
     };
     match corners.len() {
         3 => grid.filter(|(s, t)| s + t < 1.0).map(|(s, t)| blend(&[1.0 - s - t, s, t])).collect(),

@@ -7,9 +7,10 @@ use super::interpolate::{REFLECTED, interpolate};
 use super::lit::Lit;
 use super::observer::Observer;
 use super::progressive::Shooting;
-use super::relaxation::Step;
-use super::solution::{Solution, Stop};
+use super::relaxation::RelaxationStep;
+use super::solution::Solution;
 use super::sources::Sources;
+use super::stop::Stop;
 use super::work::Work;
 use super::{direct_pass, indirect_pass};
 use crate::colour::Rgb;
@@ -33,7 +34,7 @@ pub(super) struct Exchange {
     hemicubes: [usize; 2],
     work: Work,
     ambient: Rgb,
-    history: Vec<Step>,
+    history: Vec<RelaxationStep>,
 }
 
 impl Exchange {

@@ -46,14 +46,14 @@ const WIDE: f64 = 0.02;
 const STALE: f64 = 8.0;
 
 /// The patches that fill much of a vertex's view, and their form factors.
-type View = SmallVec<[(PatchId, f64); 8]>;
+type PatchView = SmallVec<[(PatchId, f64); 8]>;
 
 /// What one gathering found.
 #[derive(Serialize, Deserialize)]
 struct Gathered {
     /// W/m².
     irradiance: Rgb,
-    view: View,
+    view: PatchView,
     factors: u64,
 }
 
@@ -74,7 +74,7 @@ pub(super) struct Gatherer<'a> {
     /// Elements whose parts may change a result by more than this, W/m², are taken in parts.
     fine: f64,
     /// What vertices saw whose light was gathered.
-    views: Vec<Option<View>>,
+    views: Vec<Option<PatchView>>,
     /// How often light was gathered.
     pub(super) gathered: usize,
     /// Factors from a point to a polygon that it took.
@@ -164,7 +164,7 @@ impl<'a> Gatherer<'a> {
         self.find_glaring(mesh);
         let patches = (0..mesh.patches.len() as u32).map(PatchId);
         let change: Vec<f64> = patches.map(|p| self.sources.change(mesh, &before, p)).collect();
-        let is_stale = |view: &View| {
+        let is_stale = |view: &PatchView| {
             let seen: f64 = view.iter().map(|(patch, factor)| change[patch.index()] * factor).sum();
             seen > STALE * self.fine
         };
@@ -189,16 +189,16 @@ impl<'a> Gatherer<'a> {
         &self.delta
     }
 
-    /// Irradiance of any place with a unit normal by all reflected light, W/m².
+    /// Irradiance of any point of a surface by all reflected light, W/m².
     pub(super) fn at(
         &self,
         mesh: &Mesh,
         hemicube: &mut Hemicube<'_>,
-        place: (DVec3, DVec3),
+        point: SurfacePoint,
         turn: f64,
     ) -> Rgb {
         let mut irradiance = Rgb::ZERO;
-        self.look(mesh, hemicube, (place, turn), &mut |from: &Arrival<'_>| {
+        self.look(mesh, hemicube.look(point, turn), &mut |from: &Arrival<'_>| {
             irradiance += from.light;
         });
         irradiance
@@ -207,20 +207,20 @@ impl<'a> Gatherer<'a> {
     /// Irradiance of the vertices of a lookout by all reflected light, and what they saw.
     fn gather(&self, mesh: &Mesh, hemicube: &mut Hemicube<'_>, lookout: &Lookout) -> Vec<Gathered> {
         let turn = turn(lookout.vertices[0].index() as f64);
-        let place = (lookout.eye, lookout.normal);
+        let point = SurfacePoint::new(lookout.eye, lookout.normal);
         let normal = |v: VertexId| self.surfaces.list[mesh[v].surface as usize].plane.normal;
         if lookout.vertices.len() == 1 {
             let mut irradiance = Rgb::ZERO;
             let (view, factors) =
-                self.look(mesh, hemicube, (place, turn), &mut |from: &Arrival<'_>| {
+                self.look(mesh, hemicube.look(point, turn), &mut |from: &Arrival<'_>| {
                     irradiance += from.light;
                 });
             return vec![Gathered { irradiance, view, factors }];
         }
         let mut field = LightField::default();
         let (view, factors) =
-            self.look(mesh, hemicube, (place, turn), &mut |from: &Arrival<'_>| {
-                field.add(place, from);
+            self.look(mesh, hemicube.look(point, turn), &mut |from: &Arrival<'_>| {
+                field.add(point, from);
             });
         let light = |(k, &vertex): (usize, &VertexId)| Gathered {
             irradiance: field.irradiance(normal(vertex)),
@@ -234,22 +234,21 @@ impl<'a> Gatherer<'a> {
     fn look(
         &self,
         mesh: &Mesh,
-        hemicube: &mut Hemicube<'_>,
-        (place, turn): ((DVec3, DVec3), f64),
+        hemicube: &Hemicube<'_>,
         arrive: &mut impl FnMut(&Arrival<'_>),
-    ) -> (View, u64) {
-        let hemicube = hemicube.look(SurfacePoint::new(place.0, place.1), turn);
-        let (mut factors, mut view) = (0, View::new());
+    ) -> (PatchView, u64) {
+        let eye = hemicube.eye();
+        let (mut factors, mut view) = (0, PatchView::new());
         let is_whole = |patch: PatchId| !self.groups.holds(patch);
         let is_plain = |patch: PatchId| is_whole(patch) && !self.glares[patch.index()];
         for sight in hemicube.visible_patches_of(is_plain).filter(|sight| sight.front) {
-            factors += self.receive(mesh, hemicube, (place, sight), arrive);
+            factors += self.receive(mesh, hemicube, sight, arrive);
             if sight.delta > WIDE {
                 view.push((sight.patch, sight.delta));
             }
         }
         let Self { occluders, sources, fine, .. } = self;
-        let gaze = Gaze { mesh, occluders, sources, eye: place, fine: *fine };
+        let gaze = Gaze { mesh, occluders, sources, eye, fine: *fine };
         for &patch in &self.glaring {
             let (factor, count) = gaze.receive(patch, arrive);
             factors += count;
@@ -276,11 +275,10 @@ impl<'a> Gatherer<'a> {
         &self,
         mesh: &Mesh,
         hemicube: &Hemicube<'_>,
-        ((site, normal), sight): ((DVec3, DVec3), VisiblePatch),
+        sight: VisiblePatch,
         arrive: &mut impl FnMut(&Arrival<'_>),
     ) -> u64 {
-        let surfaces = self.surfaces;
-        let plane = &surfaces.list[mesh[sight.patch].surface as usize].plane;
+        let (plane, eye) = (mesh.plane(sight.patch), hemicube.eye());
         let mut factors = 0;
         let mut open: SmallVec<[ElementId; 32]> = SmallVec::new();
         let root = mesh[sight.patch].root;
@@ -289,7 +287,7 @@ impl<'a> Gatherer<'a> {
             let element = &mesh[source];
             let corners: SmallVec<[DVec3; 8]> =
                 element.corners.iter().map(|&v| plane.lift(mesh[v].position)).collect();
-            let factor = point_to_polygon(site, normal, &corners);
+            let factor = point_to_polygon(eye.position, eye.normal, &corners);
             factors += 1;
             let varies = factor * self.sources.spread(source) > self.fine;
             let parts = self.sources.parts(mesh, source);
@@ -304,7 +302,7 @@ impl<'a> Gatherer<'a> {
             };
             if varies {
                 let piece = self.sources.piece(mesh, source);
-                let (light, count) = self.piece_light((site, normal), (&piece, factor), DEEPEST);
+                let (light, count) = self.piece_light(eye, &piece, factor, DEEPEST);
                 arrive(&Arrival { light: visible * light, corners: &corners });
                 factors += count;
             } else {
@@ -317,19 +315,14 @@ impl<'a> Gatherer<'a> {
 
     /// Irradiance by a piece of a leaf with this form factor, divided while its variation matters, and
     /// how many factors that took.
-    fn piece_light(
-        &self,
-        eye: (DVec3, DVec3),
-        (piece, factor): (&Piece, f64),
-        depth: u32,
-    ) -> (Rgb, u64) {
+    fn piece_light(&self, eye: SurfacePoint, piece: &Piece, factor: f64, depth: u32) -> (Rgb, u64) {
         if depth == 0 || factor * piece.spread() <= self.fine {
             return (piece.mean() * factor, 0);
         }
         let parts = piece.parts();
         let lit = parts.iter().map(|part| {
-            let factor = point_to_polygon(eye.0, eye.1, &part.corners);
-            self.piece_light(eye, (part, factor), depth - 1)
+            let factor = point_to_polygon(eye.position, eye.normal, &part.corners);
+            self.piece_light(eye, part, factor, depth - 1)
         });
         lit.fold((Rgb::ZERO, 0), |(sum, count), (light, more)| (sum + light, count + more + 1))
     }

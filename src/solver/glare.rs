@@ -14,7 +14,7 @@ use super::sources::{Piece, Sources};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
 use crate::mesh::{ElementId, Mesh, PatchId};
-use crate::visibility::{HalfSpace, Occluders};
+use crate::visibility::{HalfSpace, Occluders, SurfacePoint};
 
 /// Radiosity that varies by more than this many times the mean of the scene glares.
 const GLARING: f64 = 4.0;
@@ -33,8 +33,8 @@ pub(super) struct Gaze<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) occluders: &'a Occluders,
     pub(super) sources: &'a Sources<'a>,
-    /// The place, m, and its unit normal.
-    pub(super) eye: (DVec3, DVec3),
+    /// The place.
+    pub(super) eye: SurfacePoint,
     /// Differences of irradiance that do not matter, W/m².
     pub(super) fine: f64,
 }
@@ -58,7 +58,7 @@ impl Gaze<'_> {
         patch: PatchId,
         arrive: &mut impl FnMut(&Arrival<'_>),
     ) -> (f64, u64) {
-        let Self { mesh, sources, eye: (site, normal), .. } = *self;
+        let Self { mesh, sources, eye: SurfacePoint { position: site, normal }, .. } = *self;
         let patch = &mesh[patch];
         let above = HalfSpace::new(site, normal).clip(&patch.corners);
         let is_before = (site - patch.corners[0]).dot(patch.normal) > self.occluders.tolerance();
@@ -76,7 +76,7 @@ impl Gaze<'_> {
                 open.extend_from_slice(parts);
                 continue;
             }
-            let light = look.light((&piece, factor), DEEPEST);
+            let light = look.light(&piece, factor, DEEPEST);
             arrive(&Arrival { light, corners: &piece.corners });
         }
         (look.factor(&patch.corners), look.factors)
@@ -85,14 +85,14 @@ impl Gaze<'_> {
 
 impl Look<'_, '_> {
     /// Irradiance by a piece of a leaf with this form factor, divided while its variation matters.
-    fn light(&mut self, (piece, factor): (&Piece, f64), depth: u32) -> Rgb {
+    fn light(&mut self, piece: &Piece, factor: f64, depth: u32) -> Rgb {
         if depth == 0 || !self.is_coarse(factor, piece.spread()) {
             return if self.is_clear { piece.mean() * factor } else { self.seen(piece) };
         }
         let parts = piece.parts().into_iter();
         let mut light = |part: Piece| {
             let factor = self.factor(&part.corners);
-            self.light((&part, factor), depth - 1)
+            self.light(&part, factor, depth - 1)
         };
         parts.map(&mut light).sum()
     }
@@ -108,7 +108,7 @@ impl Look<'_, '_> {
 
     /// Irradiance by what is not hidden of a piece.
     fn seen(&mut self, piece: &Piece) -> Rgb {
-        let (site, normal) = self.gaze.eye;
+        let SurfacePoint { position: site, normal } = self.gaze.eye;
         let above = HalfSpace::new(site, normal).clip(&piece.corners);
         if above.len() < 3 {
             return Rgb::ZERO;
@@ -119,7 +119,7 @@ impl Look<'_, '_> {
 
     fn factor(&mut self, corners: &[DVec3]) -> f64 {
         self.factors += 1;
-        point_to_polygon(self.gaze.eye.0, self.gaze.eye.1, corners)
+        point_to_polygon(self.gaze.eye.position, self.gaze.eye.normal, corners)
     }
 }
 

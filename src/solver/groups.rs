@@ -40,21 +40,21 @@ impl Groups {
         let facets: Vec<bool> =
             surfaces.list.iter().map(|surface| surface.extent() <= SMALL * size).collect();
         let is_facet = |patch: &Patch| facets[patch.surface as usize];
-        let corners = Corners::new(mesh, is_facet, surfaces.tolerance);
+        let corners = FacetCorners::new(mesh, is_facet, surfaces.tolerance);
         let of = vec![u32::MAX; mesh.patches.len()];
         let mut groups = Self { members: Vec::new(), of, places: Vec::new() };
         for (index, patch) in mesh.patches.iter().enumerate() {
             if groups.of[index] == u32::MAX {
                 let seed = PatchId(index as u32);
                 let reach = if is_facet(patch) { REACH * size } else { 0.0 };
-                groups.grow((mesh, &corners), seed, reach);
+                groups.grow(mesh, &corners, seed, reach);
             }
         }
         groups
     }
 
     /// A group of the facets that hang together with a `seed` and are within `reach` of it, m.
-    fn grow(&mut self, (mesh, corners): (&Mesh, &Corners), seed: PatchId, reach: f64) {
+    fn grow(&mut self, mesh: &Mesh, corners: &FacetCorners, seed: PatchId, reach: f64) {
         let number = self.members.len() as u32;
         let centre = centre(&mesh[seed]);
         let mut members = vec![seed];
@@ -120,14 +120,14 @@ impl Groups {
 }
 
 /// Which facets have a corner in common.
-struct Corners {
+struct FacetCorners {
     /// By patch: the places of its corners; none if it is no facet.
     places: Vec<Vec<u32>>,
     /// By place.
     facets: Vec<Vec<PatchId>>,
 }
 
-impl Corners {
+impl FacetCorners {
     fn new(mesh: &Mesh, is_facet: impl Fn(&Patch) -> bool, tolerance: f64) -> Self {
         let mut weld = Weld::new(tolerance);
         let mut corners = Self { places: Vec::new(), facets: Vec::new() };
@@ -151,7 +151,7 @@ impl Corners {
 
 /// A part of a group, and the facet that looks for it.
 #[derive(Clone, Debug)]
-pub(super) struct Part {
+pub(super) struct SubCluster {
     pub(super) members: Vec<PatchId>,
     /// In the middle, facing as they do in the mean.
     pub(super) speaker: PatchId,
@@ -161,7 +161,7 @@ pub(super) struct Part {
     pub(super) size: f64,
 }
 
-impl Part {
+impl SubCluster {
     pub(super) fn new(mesh: &Mesh, members: Vec<PatchId>) -> Self {
         let area: f64 = members.iter().map(|&m| mesh[m].area).sum();
         let mean = |of: fn(&Patch) -> DVec3| -> DVec3 {

@@ -10,6 +10,7 @@ use crate::colour::Rgb;
 use crate::form_factor::contour::vector_to_polygon;
 use crate::mesh::{Mesh, VertexId};
 use crate::surface::Weld;
+use crate::visibility::SurfacePoint;
 
 /// How high over facets a lookout is, in tolerances: well above ridges that it is a hair away from.
 const LIFT: f64 = 50.0;
@@ -102,8 +103,9 @@ pub(super) struct LightField {
 }
 
 impl LightField {
-    /// Adds light that arrives at a place with a unit normal.
-    pub(super) fn add(&mut self, (place, normal): (DVec3, DVec3), arrival: &Arrival<'_>) {
+    /// Adds light that arrives at a point of a surface.
+    pub(super) fn add(&mut self, at: SurfacePoint, arrival: &Arrival<'_>) {
+        let SurfacePoint { position: place, normal } = at;
         let towards = vector_to_polygon(place, normal, arrival.corners).normalize_or(normal);
         let towards = towards / towards.dot(normal).max(GRAZING);
         for (vector, light) in self.vectors.iter_mut().zip(arrival.light.to_array()) {

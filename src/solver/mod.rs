@@ -5,12 +5,15 @@
 //! the vertices is then gathered, and refines the mesh where it varies.
 
 mod energy;
-mod solution;
+mod stop;
 mod work;
+
+pub mod relaxation;
+
+mod solution;
 
 mod checkpoint;
 mod observer;
-pub mod relaxation;
 
 mod groups;
 mod lookout;
@@ -27,6 +30,7 @@ mod unfinished;
 
 mod direct_pass;
 
+mod links;
 mod parts;
 mod transport;
 
@@ -52,12 +56,13 @@ use crate::mesh::Mesh;
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 
-pub use by_light::solve_by_light;
+pub use by_light::{ScaledLight, solve_by_light};
 pub use checkpoint::Checkpoint;
 pub use energy::Energy;
 pub use probe::{Reading, read};
-pub use solution::{Phase, Progress, Solution, Stop};
+pub use solution::{Phase, Progress, Solution};
 pub(crate) use sources::level;
+pub use stop::Stop;
 pub use work::Work;
 pub use work_plane::{Evenness, WorkPlane};
 

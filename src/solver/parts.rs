@@ -5,12 +5,11 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::groups::{Groups, Part, centre};
-use super::transport::{CLOSE, CLOSE_SHARE, Link, NEAR, Row};
+use super::groups::{Groups, SubCluster, centre};
+use super::links::{CLOSE, CLOSE_SHARE, Link, NEAR, Row};
 use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::{Hemicube, PatchCoverage, VisiblePatch, turn};
 use crate::mesh::{ElementId, Mesh, Patch, PatchId};
-use crate::surface::Surfaces;
 use crate::visibility::SurfacePoint;
 
 /// How often a group is halved at most where something is close: sixteen parts look for themselves.
@@ -20,39 +19,37 @@ const HALVINGS: u32 = 4;
 ///
 /// Where something is so close that the speaker cannot see for all, halves have speakers of their own.
 pub(super) fn row(
-    (surfaces, mesh, groups): (&Surfaces, &Mesh, &Groups),
+    mesh: &Mesh,
+    groups: &Groups,
     hemicube: &mut Hemicube<'_>,
     members: &[PatchId],
 ) -> Row {
-    let whole = Part::new(mesh, members.to_vec());
+    let whole = SubCluster::new(mesh, members.to_vec());
     let all = whole.area;
     let mut row = Row::default();
     let mut open = vec![(whole, 0)];
     while let Some((part, depth)) = open.pop() {
         let speaker = &mesh[part.speaker];
-        let plane = &surfaces.list[speaker.surface as usize].plane;
-        let eye = (mesh.centre(speaker.root, plane), speaker.normal);
-        let hemicube =
-            hemicube.look(SurfacePoint::new(eye.0, eye.1), turn(speaker.root.index() as f64));
+        let centre = mesh.centre(speaker.root, mesh.plane(part.speaker));
+        let eye = SurfacePoint::new(centre, speaker.normal);
+        let hemicube = hemicube.look(eye, turn(speaker.root.index() as f64));
         let divisible = depth < HALVINGS && part.members.len() > 1;
         if divisible && hemicube.share_within(CLOSE * part.size) > CLOSE_SHARE {
             open.extend(part.halves(mesh).map(|half| (half, depth + 1)));
             continue;
         }
-        Shot { surfaces, mesh, groups, hemicube, eye, part: &part, share: part.area / all }
-            .deliver(&mut row);
+        Shot { mesh, groups, hemicube, eye, part: &part, share: part.area / all }.deliver(&mut row);
     }
     row
 }
 
 /// What one speaker sends.
 struct Shot<'a, 'b> {
-    surfaces: &'a Surfaces,
     mesh: &'a Mesh,
     groups: &'a Groups,
     hemicube: &'a Hemicube<'b>,
-    eye: (DVec3, DVec3),
-    part: &'a Part,
+    eye: SurfacePoint,
+    part: &'a SubCluster,
     /// Share of the group's area that it speaks for.
     share: f64,
 }
@@ -68,7 +65,7 @@ impl Shot<'_, '_> {
                 row.on_backs += sight.delta * share;
             }
         }
-        let facets = Facets::seen(groups, hemicube);
+        let facets = SeenFacets::new(groups, hemicube);
         row.on_backs += facets.on_backs * share;
         for (group, cover) in facets.fronts {
             self.add(groups.receiver(mesh, group), cover.kept, row);
@@ -78,7 +75,7 @@ impl Shot<'_, '_> {
     /// Links the speaker with the elements of a patch, fine enough for their distance.
     fn link(&self, VisiblePatch { patch, visible, .. }: VisiblePatch, row: &mut Row) {
         let mesh = self.mesh;
-        let plane = &self.surfaces.list[mesh[patch].surface as usize].plane;
+        let plane = mesh.plane(patch);
         let root = mesh[patch].root;
         let mut open: SmallVec<[ElementId; 32]> = SmallVec::new();
         open.push(root);
@@ -88,7 +85,7 @@ impl Shot<'_, '_> {
             let centre = corners.iter().sum::<DVec3>() / corners.len() as f64;
             let sizes = self.part.size + mesh[receiver].area.sqrt();
             let parts = &mesh[receiver].children;
-            if !parts.is_empty() && centre.distance(self.eye.0) < NEAR * sizes {
+            if !parts.is_empty() && centre.distance(self.eye.position) < NEAR * sizes {
                 open.extend_from_slice(parts);
                 continue;
             }
@@ -97,7 +94,7 @@ impl Shot<'_, '_> {
                 visible if receiver == root => visible,
                 _ => self.hemicube.visible_share(patch, &corners),
             };
-            let factor = point_to_polygon(self.eye.0, self.eye.1, &corners);
+            let factor = point_to_polygon(self.eye.position, self.eye.normal, &corners);
             row.factors += 1;
             self.add(receiver, factor * visible, row);
         }
@@ -113,15 +110,15 @@ impl Shot<'_, '_> {
 
 /// The facets that a hemicube sees, by group: each may be smaller than its cells.
 #[derive(Debug, Default)]
-pub(super) struct Facets {
+pub(super) struct SeenFacets {
     /// By group, what is seen of its fronts.
     pub(super) fronts: BTreeMap<usize, PatchCoverage>,
     /// Share of the view that their backs fill.
     pub(super) on_backs: f64,
 }
 
-impl Facets {
-    pub(super) fn seen(groups: &Groups, hemicube: &Hemicube<'_>) -> Self {
+impl SeenFacets {
+    pub(super) fn new(groups: &Groups, hemicube: &Hemicube<'_>) -> Self {
         let mut facets = Self::default();
         for cover in hemicube.coverage_of(|patch| groups.holds(patch)) {
             if cover.front {
@@ -143,7 +140,8 @@ impl Facets {
 pub(super) fn exchange_nearby(
     mesh: &Mesh,
     polygon: &[DVec3],
-    (members, cover): (&[PatchId], PatchCoverage),
+    members: &[PatchId],
+    cover: PatchCoverage,
 ) -> f64 {
     let factor = |facet: &Patch| {
         let centre = centre(facet);

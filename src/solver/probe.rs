@@ -14,7 +14,7 @@ use crate::direct::Lamps;
 use crate::form_factor::hemicube::{Hemicube, HemicubeScene, turn};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
-use crate::visibility::Occluders;
+use crate::visibility::{Occluders, SurfacePoint};
 use crate::watch::{Enough, in_batches};
 
 /// What arrives at a place.
@@ -47,14 +47,15 @@ impl Reading {
     }
 }
 
-/// Reads a solution at places with unit normals: direct light exactly, reflected light by a hemicube over each.
+/// Reads a solution at points: direct light exactly, reflected light by a hemicube over each.
 ///
 /// `settings` are those of the solution. `observe` is told of the share done; when it breaks off, the rest is
 /// left out.
 pub fn read(
     surfaces: &Surfaces,
-    (settings, solution): (&Settings, &Solution),
-    places: &[(DVec3, DVec3)],
+    settings: &Settings,
+    solution: &Solution,
+    points: &[SurfacePoint],
     observe: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Vec<Reading> {
     let Solution { mesh, optics, vertex_light, .. } = solution;
@@ -67,12 +68,12 @@ pub fn read(
     let gatherer = Gatherer::new(surroundings, settings, mesh, sources, level);
     let targets = HemicubeScene::new(&mesh.patches);
     let hemicube = |_: &Enough| Hemicube::new(gatherer.delta(), &targets, &occluders);
-    let numbered: Vec<_> = places.iter().copied().enumerate().collect();
-    let reading = |hemicube: &mut Hemicube<'_>, &(k, (place, normal)): &(usize, _)| Reading {
-        place,
-        normal,
-        direct: lamps.shine(&occluders, place, normal).irradiance,
-        indirect: gatherer.at(mesh, hemicube, (place, normal), turn(k as f64)),
+    let numbered: Vec<_> = points.iter().copied().enumerate().collect();
+    let reading = |hemicube: &mut Hemicube<'_>, &(k, point): &(usize, SurfacePoint)| Reading {
+        place: point.position,
+        normal: point.normal,
+        direct: lamps.shine(&occluders, point.position, point.normal).irradiance,
+        indirect: gatherer.at(mesh, hemicube, point, turn(k as f64)),
     };
     in_batches(&numbered, hemicube, reading, observe)
 }

@@ -1,9 +1,8 @@
-//! What a solution is, why it ended, and what it tells on the way.
-
-use serde::{Deserialize, Serialize};
+//! What a solution is, and what it tells on the way.
 
 use super::energy::Energy;
-use super::relaxation::Step;
+use super::relaxation::RelaxationStep;
+use super::stop::Stop;
 use super::work::Work;
 use crate::colour::Rgb;
 use crate::light::{ElementLight, Optics, VertexLight};
@@ -33,7 +32,7 @@ pub struct Solution {
     /// Irradiance added for the light still unshot, W/m²; zero when converged.
     pub ambient: Rgb,
     /// How the exchange of reflected light converged, patch by patch.
-    pub history: Vec<Step>,
+    pub history: Vec<RelaxationStep>,
 }
 
 impl Solution {
@@ -41,23 +40,6 @@ impl Solution {
     pub fn reflected_shots(&self) -> usize {
         self.history.last().map_or(0, |step| step.shots)
     }
-}
-
-/// Why a solver stopped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Stop {
-    /// The unshot power fell below [`Settings::stop`](crate::settings::Settings::stop); of a [`System`](super::relaxation::System), its residual
-    /// below what was asked for.
-    Converged,
-    /// A whole sweep over a [`System`](super::relaxation::System) has changed no radiosity by as much as was
-    /// asked for.
-    Unchanged,
-    /// [`Settings::max_shots`](crate::settings::Settings::max_shots) were fired, or as many rows of a system relaxed.
-    ShotLimit,
-    /// The observer asked for it.
-    Cancelled,
-    /// What is unshot grew a millionfold, or has not come to a new low in a hundred sweeps.
-    Diverged,
 }
 
 /// A step of the work, told to the observer.

@@ -9,23 +9,13 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::groups::Groups;
-use super::parts::{self, Facets};
+use super::links::{CLOSE, CLOSE_SHARE, Link, NEAR, Row};
+use super::parts::{self, SeenFacets};
 use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::{Hemicube, VisiblePatch, turn};
 use crate::mesh::{Element, ElementId, Mesh, PatchId};
-use crate::surface::Surfaces;
 use crate::surface::polygon::centroid;
 use crate::visibility::SurfacePoint;
-
-/// Elements nearer to each other than this many of their sizes exchange light by their parts.
-pub(super) const NEAR: f64 = 2.0;
-
-/// What is nearer to an element's centre than this share of its size is too close for the centre to
-/// see for all of it.
-pub(super) const CLOSE: f64 = 0.4;
-
-/// An element looks by its parts if more than this share of its view is close.
-pub(super) const CLOSE_SHARE: f64 = 0.05;
 
 /// The same for elements that glare, whose centre may see little of what hides most of the light.
 const CLOSE_TO_GLARE: f64 = 2.0;
@@ -36,31 +26,9 @@ const SHARE_OF_GLARE: f64 = 0.002;
 /// Levels of a tree down to which elements look for themselves; below them it changed no result.
 const LOOK_LEVELS: u32 = 2;
 
-/// Where the light of one patch goes.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Row {
-    pub(super) links: Vec<Link>,
-    /// Share of the light that meets nothing.
-    pub(super) escaped: f64,
-    /// Share of the light that meets the black backs of surfaces.
-    pub(super) on_backs: f64,
-    /// Factors from a point to a polygon that it took.
-    pub(super) factors: u64,
-}
-
-/// An exchange of light between two elements.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Link {
-    pub(super) source: ElementId,
-    pub(super) receiver: ElementId,
-    /// Form factor from source to receiver times the source's area, m².
-    pub(super) exchange: f64,
-}
-
 /// What light is exchanged between.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Transport<'a> {
-    pub(super) surfaces: &'a Surfaces,
     pub(super) mesh: &'a Mesh,
     pub(super) groups: &'a Groups,
     /// By element: whether the light that it shoots first varies so much over it that it glares.
@@ -70,10 +38,10 @@ pub(super) struct Transport<'a> {
 impl Transport<'_> {
     /// The row of a group of patches, most often a single one.
     pub(super) fn row(self, hemicube: &mut Hemicube<'_>, shooter: usize) -> Row {
-        let Self { surfaces, mesh, groups, .. } = self;
+        let Self { mesh, groups, .. } = self;
         match groups.members(shooter) {
             &[patch] => row_of_patch(self, hemicube, patch),
-            members => parts::row((surfaces, mesh, groups), hemicube, members),
+            members => parts::row(mesh, groups, hemicube, members),
         }
     }
 
@@ -95,14 +63,14 @@ impl Transport<'_> {
 /// Where something is so close that the patch's centre cannot see for all of it, its parts look for
 /// themselves.
 fn row_of_patch(transport: Transport<'_>, hemicube: &mut Hemicube<'_>, shooter: PatchId) -> Row {
-    let Transport { surfaces, mesh, groups, .. } = transport;
+    let Transport { mesh, groups, .. } = transport;
     let patch = &mesh[shooter];
     let mut row = Row::default();
     let mut open = vec![patch.root];
     while let Some(source) = open.pop() {
-        let place = Place::new(mesh, surfaces, source);
-        let eye = (place.centre, place.normal);
-        let hemicube = hemicube.look(SurfacePoint::new(eye.0, eye.1), turn(source.index() as f64));
+        let place = Place::new(mesh, source);
+        let eye = SurfacePoint::new(place.centre, place.normal);
+        let hemicube = hemicube.look(eye, turn(source.index() as f64));
         if transport.looks_by_parts(hemicube, source, place.size) {
             open.extend_from_slice(&mesh[source].children);
             continue;
@@ -112,12 +80,12 @@ fn row_of_patch(transport: Transport<'_>, hemicube: &mut Hemicube<'_>, shooter: 
         for sight in hemicube.visible_patches_of(|patch| !groups.holds(patch)) {
             if sight.front {
                 let VisiblePatch { patch, visible, .. } = sight;
-                Linking { mesh, surfaces, hemicube, patch, visible }.link(source, &mut row);
+                Linking { mesh, hemicube, patch, visible }.link(source, &mut row);
             } else {
                 row.on_backs += sight.delta * share;
             }
         }
-        let facets = Facets::seen(groups, hemicube);
+        let facets = SeenFacets::new(groups, hemicube);
         row.on_backs += facets.on_backs * share;
         for (group, cover) in facets.fronts {
             let receiver = groups.receiver(mesh, group);
@@ -125,7 +93,7 @@ fn row_of_patch(transport: Transport<'_>, hemicube: &mut Hemicube<'_>, shooter: 
             // Rays do not tell what a patch covers but its form factor; near ones, projection does.
             let exchange =
                 if gap < NEAR * (place.size + groups.size(group)) && !hemicube.is_by_rays() {
-                    parts::exchange_nearby(mesh, &place.corners, (groups.members(group), cover))
+                    parts::exchange_nearby(mesh, &place.corners, groups.members(group), cover)
                 } else {
                     cover.kept * mesh[source].area
                 };
@@ -138,7 +106,6 @@ fn row_of_patch(transport: Transport<'_>, hemicube: &mut Hemicube<'_>, shooter: 
 /// Finds the links between a shooter and a patch that it sees.
 struct Linking<'a, 'b> {
     mesh: &'a Mesh,
-    surfaces: &'a Surfaces,
     hemicube: &'a Hemicube<'b>,
     patch: PatchId,
     /// Share of the patch that nothing hides.
@@ -168,7 +135,7 @@ impl Linking<'_, '_> {
             } else if near && !sources.is_empty() {
                 open.extend(sources.iter().map(|&part| (part, receiver)));
             } else {
-                let exchange = self.exchange(&from, &to, (near, &mut row.factors));
+                let exchange = self.exchange(&from, &to, near, &mut row.factors);
                 if exchange > 0.0 {
                     row.links.push(Link { source, receiver, exchange });
                 }
@@ -177,7 +144,7 @@ impl Linking<'_, '_> {
     }
 
     /// Visible form factor times area, m²: by reciprocity the same from source to receiver and back.
-    fn exchange(&self, source: &Place, receiver: &Place, (near, factors): (bool, &mut u64)) -> f64 {
+    fn exchange(&self, source: &Place, receiver: &Place, near: bool, factors: &mut u64) -> f64 {
         let (small, large) =
             if source.size < receiver.size { (source, receiver) } else { (receiver, source) };
         let see = |point: &DVec3| {
@@ -199,13 +166,13 @@ impl Linking<'_, '_> {
     }
 
     fn place(&self, element: ElementId) -> Place {
-        Place::new(self.mesh, self.surfaces, element)
+        Place::new(self.mesh, element)
     }
 }
 
 impl Place {
-    fn new(mesh: &Mesh, surfaces: &Surfaces, element: ElementId) -> Self {
-        let plane = &surfaces.list[mesh.surface_of(element)].plane;
+    fn new(mesh: &Mesh, element: ElementId) -> Self {
+        let plane = mesh.plane(mesh[element].patch);
         let outline = mesh.outline(element);
         Self {
             element,

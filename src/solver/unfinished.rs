@@ -8,6 +8,7 @@ use crate::colour::Rgb;
 use crate::direct::PatchLight;
 use crate::light::{Direct, VertexLight};
 use crate::mesh::{Mesh, PatchId, VertexId};
+use crate::visibility::SurfacePoint;
 use crate::watch::{in_batches, within};
 
 /// Time for a rough look at all places: who has ended the work waits.
@@ -56,9 +57,9 @@ fn look(
 ) {
     let dark = dark(light, vertices);
     let at = |(): &mut (), &vertex: &VertexId| {
-        let place = (mesh[vertex].site, mesh[mesh[vertex].patch].normal);
+        let point = SurfacePoint::new(mesh[vertex].site, mesh[mesh[vertex].patch].normal);
         let mut random = fastrand::Rng::with_seed(vertex.index() as u64);
-        lamps.lamps().rough(lamps.occluders(), place, || random.f64())
+        lamps.lamps().rough(lamps.occluders(), point, || random.f64())
     };
     let found: Vec<Direct> = in_batches(&dark, |_| (), at, go_on);
     for (&vertex, direct) in dark.iter().zip(found) {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::probe::Reading;
 use crate::error::{Error, Result};
 use crate::surface::Surfaces;
-use crate::visibility::{Met, Occluders};
+use crate::visibility::{Met, Occluders, SurfacePoint};
 
 /// Most places of a grid.
 const MOST_PLACES: f64 = 250_000.0;
@@ -54,7 +54,7 @@ impl WorkPlane {
     ///
     /// # Errors
     /// When height and spacing make no plane within the scene, there are too many places, or none is left.
-    pub fn places(&self, surfaces: &Surfaces) -> Result<Vec<(DVec3, DVec3)>> {
+    pub fn places(&self, surfaces: &Surfaces) -> Result<Vec<SurfacePoint>> {
         let (low, high) = surfaces.bounds().unwrap_or_default();
         let size = high - low;
         self.check(size)?;
@@ -69,7 +69,8 @@ impl WorkPlane {
         let grid =
             axis(low.z, size.z).flat_map(|z| axis(low.x, size.x).map(move |x| DVec3::new(x, y, z)));
         let is_over_floor = |place: &DVec3| is_over_floor(surfaces, &occluders, *place);
-        let places: Vec<_> = grid.filter(is_over_floor).map(|place| (place, DVec3::Y)).collect();
+        let places: Vec<_> =
+            grid.filter(is_over_floor).map(|place| SurfacePoint::new(place, DVec3::Y)).collect();
         if places.is_empty() {
             return Err(wrong(format!(
                 "no place at {y} m is over the front of a floor and outside of solids; if floors face down, \

@@ -62,6 +62,11 @@ impl<'a> Hemicube<'a> {
         self
     }
 
+    /// Where it looks from.
+    pub fn eye(&self) -> SurfacePoint {
+        SurfacePoint::new(self.frame.eye, self.frame.normal())
+    }
+
     /// Looks from `eye` along its normal, turned about it by `turn` radians.
     pub fn look(&mut self, eye: SurfacePoint, turn: f64) -> &Self {
         self.frame = Frame::new(eye, turn);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::Shooting;
+use super::shooting::Shooting;
 use crate::colour::Rgb;
 use crate::mesh::Patch;
 

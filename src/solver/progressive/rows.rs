@@ -1,6 +1,6 @@
 //! Rows of the exchange, made when they are needed.
 
-use super::Shooting;
+use super::shooting::Shooting;
 use crate::colour::{Rgb, strength};
 use crate::direct::Sent;
 use crate::form_factor::hemicube::Hemicube;
@@ -8,7 +8,8 @@ use crate::light::VertexLight;
 use crate::mesh::PatchId;
 use crate::solver::arrival::{ERROR, arrival};
 use crate::solver::context::Context;
-use crate::solver::transport::{Row, Transport};
+use crate::solver::links::Row;
+use crate::solver::transport::Transport;
 
 impl Shooting<'_, '_> {
     /// What lights at points send out and past all fronts, and what fronts absorb of all direct light.
@@ -90,8 +91,8 @@ impl Shooting<'_, '_> {
         groups: &[usize],
         take: impl Fn(Row) -> R + Sync + Send,
     ) -> Vec<R> {
-        let Self { surfaces, mesh, ref glares, .. } = *self;
-        let transport = Transport { surfaces, mesh, groups: self.groups, glares };
+        let Self { mesh, ref glares, .. } = *self;
+        let transport = Transport { mesh, groups: self.groups, glares };
         let (delta, targets, occluders) = (&self.delta, &self.targets, self.occluders);
         self.observer.map(
             groups,

@@ -2,17 +2,17 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Held, Shooting};
+use super::shooting::{Held, Shooting};
 use crate::colour::Rgb;
 use crate::solver::energy::Energy;
 use crate::solver::observer::Observer;
-use crate::solver::relaxation::Course;
-use crate::solver::solution::Stop;
+use crate::solver::relaxation::Convergence;
+use crate::solver::stop::Stop;
 
 /// What shooting has come to: the same, when it is taken up again, as if it had never been left.
 #[derive(Serialize, Deserialize)]
 pub(super) struct State {
-    course: Course,
+    course: Convergence,
     /// Why it has ended, once it has.
     stop: Option<Stop>,
     held: Held,
@@ -28,13 +28,13 @@ pub(super) struct State {
 
 impl Shooting<'_, '_> {
     /// Keeps the state in the checkpoint.
-    pub(super) fn keep(&mut self, course: &Course, stop: Option<Stop>) {
+    pub(super) fn keep(&mut self, course: &Convergence, stop: Option<Stop>) {
         let state = self.state(course, stop);
         self.observer.checkpoint.keep(&state);
     }
 
     /// The state to go on from, once the history is this.
-    fn state(&self, course: &Course, stop: Option<Stop>) -> State {
+    fn state(&self, course: &Convergence, stop: Option<Stop>) -> State {
         let rows = self.rows.iter().enumerate().filter(|(_, row)| row.is_some());
         State {
             course: course.clone(),
@@ -51,7 +51,7 @@ impl Shooting<'_, '_> {
     }
 
     /// Goes on from a state, with the rows that were there made anew if any will be needed.
-    pub(super) fn take_up(&mut self, state: State) -> (Course, Option<Stop>) {
+    pub(super) fn take_up(&mut self, state: State) -> (Convergence, Option<Stop>) {
         if state.stop.is_none() {
             self.make_rows(&state.ready);
         }

@@ -2,9 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{BATCH, Residuals};
+use super::residuals::RelaxationSystem;
 use crate::settings::Method;
-use crate::solver::solution::Stop;
+use crate::solver::stop::Stop;
+
+/// Rows made ready at once, ahead of their turn. A number of its own, so that threads change nothing.
+const BATCH: usize = 48;
 
 /// The order of a method.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -20,7 +23,7 @@ impl Order {
     }
 
     /// The next row, made ready together with those likely to follow; or else why there is none.
-    pub(super) fn next(&mut self, system: &mut impl Residuals) -> Result<usize, Stop> {
+    pub(super) fn next(&mut self, system: &mut impl RelaxationSystem) -> Result<usize, Stop> {
         if self.method == Method::Jacobi && self.taken.is_multiple_of(system.rows().max(1)) {
             system.remember();
         }
@@ -37,7 +40,7 @@ impl Order {
     }
 
     /// The next rows, as things stand.
-    fn ahead(&self, system: &impl Residuals, count: usize) -> Vec<usize> {
+    fn ahead(&self, system: &impl RelaxationSystem, count: usize) -> Vec<usize> {
         let rows = system.rows();
         let count = count.min(rows);
         let strength = |row: usize| system.residual(row).abs().element_sum();

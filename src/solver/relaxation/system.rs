@@ -1,11 +1,37 @@
 //! The assembled system: form factors, reflectances and exitances of n patches.
 
 use super::check::{check_exitance, check_reflectance, check_row};
-use super::{Course, Criteria, Relaxation, Residuals, Step};
+use super::residuals::{RelaxationStep, RelaxationSystem};
+use super::run::{Convergence, Relaxation};
 use crate::colour::Rgb;
 use crate::error::Result;
 use crate::form_factor::FormFactors;
-use crate::solver::solution::Stop;
+use crate::solver::stop::Stop;
+
+/// When a relaxation of a [`System`] ends; zero for a difference that is not to end it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Criteria {
+    /// Largest residual of any row and channel, W/m².
+    pub residual: f64,
+    /// Largest change of any radiosity in a sweep of as many rows as there are, W/m².
+    pub change: f64,
+    /// Most rows to relax.
+    pub max_shots: usize,
+}
+
+impl Criteria {
+    fn judge(&self, step: &RelaxationStep) -> Option<Stop> {
+        if step.residual <= self.residual {
+            Some(Stop::Converged)
+        } else if step.change < self.change {
+            Some(Stop::Unchanged)
+        } else if step.shots >= self.max_shots {
+            Some(Stop::ShotLimit)
+        } else {
+            None
+        }
+    }
+}
 
 /// M B = E with M = I − diag(ρ) F, all channels together.
 #[derive(Clone, Debug)]
@@ -25,7 +51,7 @@ pub struct Relaxed {
     /// Why it ended.
     pub stop: Stop,
     /// The state before the first row was relaxed, and after each.
-    pub history: Vec<Step>,
+    pub history: Vec<RelaxationStep>,
 }
 
 impl System {
@@ -73,7 +99,7 @@ impl System {
     /// Relaxes the system, from darkness.
     pub fn relax(&self, relaxation: Relaxation, criteria: &Criteria) -> Relaxed {
         let mut state = State::dark(self);
-        let mut course = Course::new(relaxation, &state);
+        let mut course = Convergence::new(relaxation, &state);
         let stop =
             relaxation.run(&mut state, &mut course, |_, course| criteria.judge(&course.step()));
         let history = course.history;
@@ -102,7 +128,7 @@ impl<'a> State<'a> {
     }
 }
 
-impl Residuals for State<'_> {
+impl RelaxationSystem for State<'_> {
     fn rows(&self) -> usize {
         self.system.len()
     }

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Residuals, Step};
+use super::residuals::{RelaxationStep, RelaxationSystem};
 use crate::colour::Rgb;
-use crate::solver::solution::Stop;
+use crate::solver::stop::Stop;
 
 /// A residual grown by this factor will not come down again.
 const GROWN: f64 = 1e6;
@@ -35,7 +35,11 @@ impl Trend {
     }
 
     /// The state after a row has changed by so much, W/m²; at the start, after none.
-    pub(super) fn step(&mut self, system: &impl Residuals, relaxed: Option<(usize, Rgb)>) -> Step {
+    pub(super) fn step(
+        &mut self,
+        system: &impl RelaxationSystem,
+        relaxed: Option<(usize, Rgb)>,
+    ) -> RelaxationStep {
         if let Some((_, change)) = relaxed {
             self.shots += 1;
             self.largest = self.largest.max(change.abs().max_element());
@@ -51,11 +55,11 @@ impl Trend {
             self.least = (unshot, self.shots);
         }
         let row = relaxed.map(|(row, _)| row);
-        Step { shots: self.shots, row, residual, change: self.change, unshot }
+        RelaxationStep { shots: self.shots, row, residual, change: self.change, unshot }
     }
 
     /// Whether there is no end in sight.
-    pub(super) fn verdict(&self, step: &Step) -> Option<Stop> {
+    pub(super) fn verdict(&self, step: &RelaxationStep) -> Option<Stop> {
         let sane = step.unshot.is_finite() && step.unshot <= GROWN * self.start;
         let falls = step.shots - self.least.1 <= PATIENCE * self.rows;
         (!sane || !falls).then_some(Stop::Diverged)
@@ -63,7 +67,7 @@ impl Trend {
 }
 
 /// The largest residual, W/m², and the share of the emitted power unshot.
-fn left(system: &impl Residuals) -> (f64, f64) {
+fn left(system: &impl RelaxationSystem) -> (f64, f64) {
     let (mut largest, mut power) = (0.0_f64, Rgb::ZERO);
     for row in 0..system.rows() {
         let residual = system.residual(row).abs();

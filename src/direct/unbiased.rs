@@ -2,26 +2,28 @@
 
 use glam::DVec3;
 
-use super::{Lamp, Lamps, View, punctual};
+use super::lamp::Lamp;
+use super::lamps::Lamps;
+use super::punctual;
+use super::view::View;
 use crate::colour::Rgb;
-use crate::visibility::Occluders;
+use crate::visibility::{Occluders, SurfacePoint};
 
 /// Lamps that send less than this share of the light are looked at as much more seldom.
 const WORTH_A_RAY: f64 = 0.1;
 
 impl Lamps {
-    /// What arrives at a place with unit `normal`, W/m², on the mean over the values that `random` gives, even
+    /// What arrives at a point of a surface, W/m², on the mean over the values that `random` gives, even
     /// in 0..1; it may be below zero.
     ///
     /// What would arrive if nothing stood between is exact, and a ray to a place on the lamp tells of what is
     /// hidden. So there is no noise where nothing is.
-    pub fn glimpse(
+    pub fn sample_unbiased(
         &self,
         occluders: &Occluders,
-        (place, normal): (DVec3, DVec3),
+        receiver: SurfacePoint,
         mut random: impl FnMut() -> f64,
     ) -> Rgb {
-        let receiver = (place, normal);
         let views: Vec<View<'_>> =
             self.list.iter().filter_map(|lamp| lamp.view(receiver)).collect();
         let all: f64 = views.iter().map(|view| view.unoccluded().element_sum()).sum();

@@ -1,0 +1,146 @@
+//! All emitters of a scene, and what arrives from them at a point.
+
+use glam::DVec3;
+
+use super::lamp::{AreaLamp, Lamp};
+use super::profile::RadianceProfile;
+use super::tally::Tally;
+use super::{globe, glow, punctual, sky};
+use crate::light::Direct;
+use crate::mesh::Mesh;
+use crate::scene::{Light, NamedLight};
+use crate::surface::Surfaces;
+use crate::surface::cut::{Cuts, convex_pieces};
+use crate::visibility::{CROWDED, Occluders, SurfacePoint};
+
+/// All emitters of a scene.
+#[derive(Clone, Debug)]
+pub struct Lamps {
+    pub(super) list: Vec<Lamp>,
+    /// Rows of cells to each triangle of a light that is always sampled.
+    pub(super) rows: Option<u32>,
+    /// Radius of the discs on which the light of points is evaluated, m.
+    pub(super) blur: f64,
+    pub(super) tally: Tally,
+}
+
+impl Lamps {
+    /// The emitting surfaces, in convex pieces, and the lights of a scene.
+    pub fn new(surfaces: &Surfaces, mesh: &Mesh) -> Self {
+        let globes = globe::globes(surfaces);
+        let mut in_globe = vec![false; surfaces.list.len()];
+        for &facet in globes.iter().flat_map(|globe| &globe.surfaces) {
+            in_globe[facet as usize] = true;
+        }
+        let emitters = surfaces.list.iter().enumerate().filter(|(_, s)| s.is_emitter());
+        let emitters = emitters.filter(|(number, _)| !in_globe[*number]);
+        let mut areas: Vec<AreaLamp> =
+            emitters.flat_map(|(number, _)| areas_of(surfaces, mesh, number)).collect();
+        let mut points = Vec::new();
+        for NamedLight { light, .. } in &surfaces.lights {
+            match *light {
+                Light::Sky { sky, irradiance } => {
+                    areas.extend(sky::lamps(surfaces, sky, irradiance));
+                }
+                Light::Sun { direction, irradiance } => {
+                    areas.extend(sky::sun(surfaces, direction, irradiance));
+                }
+                _ => points.push(Lamp::Point(light.clone())),
+            }
+        }
+        areas.retain(|lamp| lamp.exitance.max_element() > 0.0);
+        let areas = areas.into_iter().map(Lamp::Area);
+        let list = areas.chain(globes.into_iter().map(Lamp::Globe)).chain(points).collect();
+        Self { list, rows: None, blur: 0.0, tally: Tally::default() }
+    }
+
+    /// With [`Settings::shadow_rays`](crate::settings::Settings::shadow_rays): what hides a polygon is found by about
+    /// that many rays to each of its triangles, one through each of equal cells, instead of exactly.
+    #[must_use]
+    pub fn seen_by(self, rays: Option<u32>) -> Self {
+        let rows = rays.map(|rays| f64::from(rays).sqrt().round().max(1.0) as u32);
+        Self { rows, ..self }
+    }
+
+    /// With the light of points as the mean over discs of this radius, m: between places so far apart, no peak is
+    /// missed or taken for wider than it is.
+    #[must_use]
+    pub fn blurred(self, radius: f64) -> Self {
+        Self { blur: radius, ..self }
+    }
+
+    /// True if there is no light at all.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// How often light has been evaluated so far: pairs of a place and a lamp, or convex piece of one, that
+    /// shines there unless something hides it.
+    pub fn evaluations(&self) -> u64 {
+        self.tally.evaluations()
+    }
+
+    /// Shadow rays so far: to lights that are points, and to others where exact cutting has given up.
+    pub fn rays(&self) -> u64 {
+        self.tally.rays()
+    }
+
+    /// Evaluations and rays so far.
+    pub(crate) fn counts(&self) -> [u64; 2] {
+        [self.evaluations(), self.rays()]
+    }
+
+    /// Counts on from these.
+    pub(crate) fn count_from(&self, [evaluations, rays]: [u64; 2]) {
+        self.tally.set(evaluations, rays);
+    }
+
+    /// What arrives at a place with unit `normal`.
+    pub fn shine(&self, occluders: &Occluders, place: DVec3, normal: DVec3) -> Direct {
+        let (all, receiver) = (occluders.all(), SurfacePoint::new(place, normal));
+        let (mut light, mut evaluations, mut rays) = (Direct::default(), 0, 0);
+        for lamp in &self.list {
+            let arriving = match lamp {
+                Lamp::Point(point) => punctual::shine(point, occluders, receiver),
+                lamp => lamp.view(receiver).map(|view| {
+                    let seen = self.rows.map_or_else(
+                        || view.exact(occluders, &all, CROWDED),
+                        |rows| Some(view.sampled_evenly(occluders, rows)),
+                    );
+                    let seen = seen.unwrap_or_else(|| view.sampled(occluders, 0.0));
+                    (view.light(seen), seen.rays)
+                }),
+            };
+            if let Some((arriving, more)) = arriving {
+                light = light + arriving;
+                evaluations += 1;
+                rays += more;
+            }
+        }
+        self.tally.add(evaluations, rays);
+        light
+    }
+}
+
+/// The lamps that an emitting surface is: convex pieces, of its patches where a picture says how bright each is.
+fn areas_of(surfaces: &Surfaces, mesh: &Mesh, number: usize) -> Vec<AreaLamp> {
+    let surface = &surfaces.list[number];
+    let front = globe::front(surface, surfaces.tolerance);
+    let profile = RadianceProfile::Diffuse;
+    if surfaces.materials[surface.material as usize].emission_texture.is_some() {
+        let patches = mesh.patches.iter().filter(|patch| patch.surface == number as u32);
+        let pieces = patches.flat_map(|patch| glow::pieces(surfaces, patch));
+        return pieces
+            .map(|(corners, exitance)| AreaLamp { corners, front, exitance, profile })
+            .collect();
+    }
+    let cuts = Cuts { segments: &[], size: f64::INFINITY, tolerance: surfaces.tolerance };
+    let pieces = convex_pieces(&surface.rings, &cuts);
+    let lamp = |piece: &crate::surface::polygon::Convex| AreaLamp {
+        corners: piece.iter().map(|&p| surface.plane.lift(p)).collect(),
+        front,
+        exitance: surface.exitance,
+        profile,
+    };
+    pieces.iter().map(lamp).collect()
+}
