@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use radiosity::TriMesh;
+use radiosity::export::Stamp;
 use radiosity::render::{self, Subject, render_solved};
 use radiosity::scene::{Camera, NamedLight};
 use radiosity::tone::Exposure;
@@ -15,16 +17,38 @@ use super::record::CameraRecord;
 /// What the pictures are of, and how they are taken.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pictures<'a> {
-    pub(crate) subject: Subject<'a>,
+    subject: Subject<'a>,
     /// Lights of which skies and suns are seen behind it.
-    pub(crate) sky: &'a [NamedLight],
-    pub(crate) camera: &'a Camera,
-    pub(crate) exposure: Exposure,
-    /// False if the subject itself cannot tell that its light is unfinished, but it is.
-    pub(crate) finished: bool,
+    sky: &'a [NamedLight],
+    camera: &'a Camera,
+    exposure: Exposure,
+    /// False if the light is unfinished, but the subject cannot tell.
+    finished: bool,
 }
 
-impl Pictures<'_> {
+impl<'a> Pictures<'a> {
+    /// Of what has just been solved.
+    pub(crate) fn of_solution(
+        subject: Subject<'a>,
+        camera: &'a Camera,
+        exposure: Exposure,
+    ) -> Self {
+        let sky = subject.solved.map_or(&[][..], |solved| &solved.surfaces.lights);
+        Self { subject, sky, camera, exposure, finished: true }
+    }
+
+    /// Of a mesh that was read from a file.
+    pub(crate) fn of_file(
+        mesh: &'a TriMesh,
+        sky: &'a [NamedLight],
+        camera: &'a Camera,
+        stamp: &Stamp,
+    ) -> Self {
+        let subject = Subject { mesh, solved: None };
+        let &Stamp { exposure, finished, .. } = stamp;
+        Self { subject, sky, camera, exposure, finished }
+    }
+
     /// Makes the pictures, and writes each to its file.
     pub(crate) fn write(
         &self,

@@ -5,10 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use radiosity::colour::Rgb;
 use radiosity::reconstruct::{Dimming, LightShare};
-use radiosity::render::{self, Subject};
 use radiosity::scene::NamedLight;
 use radiosity::surface::LightGroup;
-use radiosity::{Error, export};
+use radiosity::{Error, export, render};
 use serde_json::json;
 
 use super::console;
@@ -94,13 +93,7 @@ impl Relight {
         }
         if !self.image.is_empty() {
             meter.begin("picture");
-            let pictures = Pictures {
-                subject: Subject { mesh: &mesh, solved: None },
-                sky: &sky,
-                camera: &camera,
-                exposure,
-                finished: stamp.finished,
-            };
+            let pictures = Pictures::of_file(&mesh, &sky, &camera, &stamp);
             pictures.write(&self.picture, &self.image, &interrupt, &mut meter)?;
         }
         streams.deliver()?;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use radiosity::export;
-use radiosity::render::{self, Subject};
+use radiosity::render;
 use serde_json::json;
 
 use super::console;
@@ -62,7 +62,7 @@ impl Render {
         let interrupt = Interrupt::listen();
         let mut meter = Meter::new(&self.report.talk);
         meter.begin("reading");
-        let (mesh, stamp) = export::load_solved(&self.path)?;
+        let (mesh, mut stamp) = export::load_solved(&self.path)?;
         let choice = self.picture.choose_camera(&cameras(&stamp.settings))?;
         if !stamp.finished {
             meter.tell("the solution was stopped before it was done");
@@ -70,14 +70,9 @@ impl Render {
         let lights = lights(&stamp.settings);
         meter.begin("picture");
         let (camera, exposure) = self.picture.look(&choice, &mesh, stamp.exposure);
+        stamp.exposure = exposure;
         interrupt.worth_writing();
-        let pictures = Pictures {
-            subject: Subject { mesh: &mesh, solved: None },
-            sky: &lights,
-            camera: &camera,
-            exposure,
-            finished: stamp.finished,
-        };
+        let pictures = Pictures::of_file(&mesh, &lights, &camera, &stamp);
         pictures.write(&self.picture, &self.output, &interrupt, &mut meter)?;
         streams.deliver()?;
         let camera = CameraRecord::from(&camera);

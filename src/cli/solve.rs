@@ -138,27 +138,18 @@ impl Solve {
         judge(&solution, &meter)?;
 
         let (camera, exposure) = self.picture.look(&camera, &mesh, Exposure::Automatic);
-        let stamp = Stamp {
-            exposure,
-            settings: stamped(&settings_record, &scene),
-            finished: solution.stop == Stop::Converged,
-        };
+        let record = stamped(&settings_record, &scene);
+        let finished = solution.stop == Stop::Converged;
+        let stamp = Stamp { exposure, settings: record, finished };
         let solved = Solved { surfaces: &surfaces, settings: &settings, solution: &solution };
         let subject = Subject { mesh: &mesh, solved: Some(solved) };
         self.write_meshes(&subject, lightmap.as_ref(), &stamp, &mut meter)?;
-        if !self.image.is_empty() {
-            meter.begin("picture");
-            let (sky, camera, finished) = (&surfaces.lights, &camera, true);
-            let pictures = Pictures { subject, sky, camera, exposure, finished };
-            pictures.write(&self.picture, &self.image, &interrupt, &mut meter)?;
-        }
+        let pictures = Pictures::of_solution(subject, &camera, exposure);
+        self.write_pictures(&pictures, &interrupt, &mut meter)?;
         if let Some(path) = &self.history {
             export::save_history(&solution.history, path)?;
         }
-        let grid = match grid {
-            Some(grid) => grid.read(solved, &interrupt, &mut meter)?,
-            None => None,
-        };
+        let grid = grid.map(|grid| grid.read(solved, &interrupt, &mut meter)).transpose()?;
         let mut summary = Summary::new(&surfaces, &solution, &mesh);
         let account = SolutionPage {
             path: &self.scene.path,
@@ -177,7 +168,7 @@ impl Solve {
             scene: self.scene.path.clone(),
             photometric: scene.photometric,
             summary,
-            grid,
+            grid: grid.flatten(),
             settings: settings_record,
             seconds: meter.into_timings(),
             written: self.written().map(|path| streams.name(&path)).collect(),
@@ -321,6 +312,19 @@ impl Solve {
             lightmap.write(subject, stamp, meter)?;
         }
         Ok(())
+    }
+
+    fn write_pictures(
+        &self,
+        pictures: &Pictures<'_>,
+        interrupt: &Interrupt,
+        meter: &mut Meter,
+    ) -> Result<(), Failure> {
+        if self.image.is_empty() {
+            return Ok(());
+        }
+        meter.begin("picture");
+        pictures.write(&self.picture, &self.image, interrupt, meter)
     }
 }
 
