@@ -16,7 +16,7 @@ use crate::scene::Camera;
 ///
 /// Radiosity is interpolated linearly over the triangles; on textured parts it is multiplied by
 /// texture over texture mean. Back sides are not seen. Views that [need a
-/// solution](View::needs_solution) show nothing.
+/// solution](super::View::needs_solution) show nothing.
 pub fn render(mesh: &TriMesh, camera: &Camera, options: &RenderOptions) -> Picture {
     let subject = Subject { mesh, solved: None };
     render_solved(subject, camera, options, |_| ControlFlow::Continue(()))

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::row::{SparseRow, merged, rows_of};
-use crate::form_factor::FormFactors;
+use crate::form_factor::matrix::FormFactors;
 use crate::form_factor::pair::{exchange, is_level};
 use crate::mesh::Patch;
 use crate::visibility::{Occluders, PlanarPolygon};

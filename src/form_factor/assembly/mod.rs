@@ -18,8 +18,8 @@ mod views;
 
 use std::ops::ControlFlow;
 
-use super::FormFactors;
 use super::hemicube::{DeltaFactors, Hemicube, HemicubeScene};
+use super::matrix::FormFactors;
 use super::rays::{Rays, Sphere};
 use crate::mesh::Patch;
 use crate::visibility::{Occluders, PatchHierarchy};
