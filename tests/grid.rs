@@ -9,6 +9,7 @@ use common::{Block, Stage, coarse, solve};
 use glam::DVec3;
 use radiosity::colour::LUMENS_PER_WATT;
 use radiosity::solver::{Evenness, Reading, WorkPlane, read};
+use radiosity::visibility::SurfacePoint;
 use radiosity::{Scene, Settings, surfaces_of};
 
 const ROOM: (DVec3, DVec3) = (DVec3::ZERO, DVec3::new(4.0, 3.0, 5.0));
@@ -54,7 +55,7 @@ fn a_grid_leaves_out_what_is_inside_of_solids_and_keeps_clear_of_walls() {
     assert_eq!(places(2.0).len(), 8 * 10);
     let low = places(1.0);
     assert_eq!(low.len(), 8 * 10 - 16);
-    for (place, normal) in low {
+    for SurfacePoint { position: place, normal } in low {
         assert_eq!((place.y, normal), (1.0, DVec3::Y));
         assert!(!block.covers(place, 0.0), "{place}");
         let depth = (place - ROOM.0).min(ROOM.1 - place).min_element();

@@ -10,7 +10,7 @@ use radiosity::colour::LUMENS_PER_WATT;
 use radiosity::direct::Lamps;
 use radiosity::mesh::Mesh;
 use radiosity::scene::{Light, Sky, clear_sun};
-use radiosity::visibility::Occluders;
+use radiosity::visibility::{Occluders, SurfacePoint};
 use radiosity::{Scene, surfaces_of};
 
 const SKIES: [Sky; 2] = [Sky::Uniform, Sky::Overcast];
@@ -127,12 +127,12 @@ fn a_window_lets_in_what_it_shows_of_the_sky() {
 
 #[test]
 fn a_sky_seen_by_rays_is_the_same_on_the_mean() {
-    let place = (DVec3::new(1.3, 0.0, 1.5), DVec3::Y);
+    let point = SurfacePoint::new(DVec3::new(1.3, 0.0, 1.5), DVec3::Y);
     for sky in SKIES {
         let surfaces = surfaces_of(&room_with_window(sky, [1.0, 0.9], [3.2, 2.4]));
         let occluders = Occluders::new(&surfaces);
         let lamps = Lamps::new(&surfaces, &Mesh::new(&surfaces, &coarse()));
-        let exact = lamps.shine(&occluders, place.0, place.1).irradiance.x;
+        let exact = lamps.shine(&occluders, point.position, point.normal).irradiance.x;
         let mut seed = 1_u64;
         let mut random = || {
             seed = seed
@@ -141,10 +141,12 @@ fn a_sky_seen_by_rays_is_the_same_on_the_mean() {
             (seed >> 11) as f64 / (1_u64 << 53) as f64
         };
         let count = 20_000;
-        let sum: f64 = (0..count).map(|_| lamps.glimpse(&occluders, place, &mut random).x).sum();
+        let sum: f64 =
+            (0..count).map(|_| lamps.sample_unbiased(&occluders, point, &mut random).x).sum();
         let mean = sum / f64::from(count);
-        assert!((mean / exact - 1.0).abs() < 0.05, "{sky:?}: {mean} by glimpses, {exact}");
-        let sampled = lamps.seen_by(Some(1024)).shine(&occluders, place.0, place.1).irradiance.x;
+        assert!((mean / exact - 1.0).abs() < 0.05, "{sky:?}: {mean} by single rays, {exact}");
+        let sampled =
+            lamps.seen_by(Some(1024)).shine(&occluders, point.position, point.normal).irradiance.x;
         assert!((sampled / exact - 1.0).abs() < 0.05, "{sky:?}: {sampled} by rays, {exact}");
     }
 }

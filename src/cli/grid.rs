@@ -4,10 +4,10 @@ use std::fmt::{self, Display, Formatter};
 use std::path::PathBuf;
 
 use clap::Args;
-use glam::DVec3;
 use radiosity::export::save_grid;
 use radiosity::render::Solved;
 use radiosity::solver::{Evenness, WorkPlane, read};
+use radiosity::visibility::SurfacePoint;
 use radiosity::{Error, Surfaces};
 use serde::Serialize;
 
@@ -60,7 +60,7 @@ impl GridOptions {
 pub(crate) struct PlannedGrid {
     plane: WorkPlane,
     /// Each with the normal of the plane.
-    places: Vec<(DVec3, DVec3)>,
+    places: Vec<SurfacePoint>,
     csv: Option<PathBuf>,
 }
 

@@ -66,7 +66,7 @@ impl Candidates {
                 ControlFlow::Break(()) => parts.push((0, all)),
             }
         }
-        let descend = |(): &mut (), (node, around): &Branch| finder.descend(*node, around);
+        let descend = |(): &mut (), (node, around): &Subtree| finder.descend(*node, around);
         let mut found: Vec<Vec<Region>> = in_batches(&parts, |_| (), descend, observe);
         let rest = parts.drain(found.len()..);
         found.extend(rest.map(|(node, around)| vec![(finder.patches_under(node), around)]));
@@ -86,7 +86,7 @@ impl Candidates {
 }
 
 /// A node of the patches' tree, and the candidates of what is around it.
-type Branch = (u32, Vec<Candidate>);
+type Subtree = (u32, Vec<Candidate>);
 
 /// Patches that have their candidates in common, and these.
 type Region = (Vec<PatchId>, Vec<Candidate>);
@@ -102,7 +102,7 @@ struct Finder<'a> {
 
 impl Finder<'_> {
     /// The candidates of parts of the tree under a node, from those of the node around it.
-    fn divide(&self, node: u32, around: Vec<Candidate>, parts: &mut Vec<Branch>) {
+    fn divide(&self, node: u32, around: Vec<Candidate>, parts: &mut Vec<Subtree>) {
         let own = &self.tree.nodes[node as usize];
         let patches = self.patches_under(node);
         if own.is_leaf() || patches.len() <= AT_ONCE {

@@ -8,7 +8,7 @@ use super::lamp::Lamp;
 use super::lamps::Lamps;
 use super::pool::Pool;
 use super::punctual;
-use super::view::{Seen, View};
+use super::view::{LampView, Seen};
 use crate::colour::{Rgb, strength};
 use crate::light::Direct;
 use crate::scene::Light;
@@ -33,7 +33,7 @@ pub(super) struct Evaluation<'a> {
     receiver: SurfacePoint,
     known: Direct,
     /// Lamps that something may stand before.
-    open: SmallVec<[(u32, &'a Blockers, View<'a>); 2]>,
+    open: SmallVec<[(u32, &'a Blockers, LampView<'a>); 2]>,
     pool: Pool,
     evaluations: u64,
     rays: u64,
@@ -98,7 +98,7 @@ impl<'a> Evaluation<'a> {
         self.push(number, sent, blockers, source.end(self.receiver.position, self.occluders));
     }
 
-    fn take(&mut self, view: &View<'_>, seen: Seen) {
+    fn take(&mut self, view: &LampView<'_>, seen: Seen) {
         self.known = self.known + view.light(seen);
         self.rays += seen.rays;
     }
@@ -135,7 +135,7 @@ impl<'a> Evaluation<'a> {
     }
 
     /// What is seen of a lamp that much may stand before.
-    fn crowded(&self, view: &View<'_>, blockers: &Blockers, error: f64) -> Seen {
+    fn crowded(&self, view: &LampView<'_>, blockers: &Blockers, error: f64) -> Seen {
         let occluders = self.occluders;
         let sent = strength(view.unoccluded());
         // The more a lamp sends, the more may be cut out of it before rays would do as well.

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
 use super::profile::RadianceProfile;
-use super::view::View;
+use super::view::LampView;
 use crate::colour::Rgb;
 use crate::surface::{Surface, Surfaces, Weld};
 use crate::visibility::{HalfSpace, Polygon, SurfacePoint};
@@ -185,12 +185,12 @@ impl Globe {
     }
 
     /// As a place with a unit normal sees it.
-    pub(super) fn view(&self, receiver: SurfacePoint) -> Option<View<'_>> {
+    pub(super) fn view(&self, receiver: SurfacePoint) -> Option<LampView<'_>> {
         let (outline, normal) = self.silhouette(receiver.position)?;
         let horizon = HalfSpace::new(receiver.position, receiver.normal);
         let polygon = horizon.clip(&outline);
         let profile = RadianceProfile::Diffuse;
-        (!polygon.is_empty()).then(|| View {
+        (!polygon.is_empty()).then(|| LampView {
             weight: profile.weight(receiver, &polygon),
             receiver,
             polygon,

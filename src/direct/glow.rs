@@ -15,10 +15,10 @@ const ALIKE: f64 = 0.05;
 const HALVINGS: u32 = 5;
 
 /// A convex part of a surface, m, and its mean exitance, W/m².
-pub(super) type Piece = (SmallVec<[DVec3; 8]>, Rgb);
+pub(super) type GlowingPiece = (SmallVec<[DVec3; 8]>, Rgb);
 
 /// The pieces of a patch: halved along the picture's axes where it varies.
-pub(super) fn pieces(surfaces: &Surfaces, patch: &Patch) -> Vec<Piece> {
+pub(super) fn pieces(surfaces: &Surfaces, patch: &Patch) -> Vec<GlowingPiece> {
     let surface = &surfaces.list[patch.surface as usize];
     let outline: Convex = patch.corners.iter().map(|&p| surface.plane.flatten(p)).collect();
     let mean = mean_texture(surfaces, surface, &outline)[1];

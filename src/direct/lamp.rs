@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::globe::Globe;
 use super::profile::RadianceProfile;
-use super::view::{FAR, View};
+use super::view::{FAR, LampView};
 use crate::colour::Rgb;
 use crate::scene::{Light, area_vector};
 use crate::visibility::{ConvexBody, HalfSpace, PlanarPolygon, Polygon, SurfacePoint};
@@ -123,7 +123,7 @@ impl Lamp {
     }
 
     /// As a place with a unit normal sees it, if it sees something; lights without a surface have no view.
-    pub(super) fn view(&self, receiver: SurfacePoint) -> Option<View<'_>> {
+    pub(super) fn view(&self, receiver: SurfacePoint) -> Option<LampView<'_>> {
         match self {
             Self::Area(lamp) => lamp.view(receiver),
             Self::Globe(globe) => globe.view(receiver),
@@ -133,12 +133,12 @@ impl Lamp {
 }
 
 impl AreaLamp {
-    fn view(&self, receiver: SurfacePoint) -> Option<View<'_>> {
+    fn view(&self, receiver: SurfacePoint) -> Option<LampView<'_>> {
         if self.front.depth(receiver.position) <= 0.0 {
             return None;
         }
         let polygon = self.above_plane(HalfSpace::new(receiver.position, receiver.normal));
-        (!polygon.is_empty()).then(|| View {
+        (!polygon.is_empty()).then(|| LampView {
             weight: self.profile.weight(receiver, &polygon),
             receiver,
             polygon,

@@ -27,7 +27,7 @@ const ROUND: usize = 6;
 
 /// A discontinuity line, perhaps.
 #[derive(Clone, Copy, Debug)]
-pub struct Line {
+pub struct EventLine {
     /// Its ends, m.
     pub ends: [DVec3; 2],
     /// What interpolation over the receiver's width may lose for want of it, at most, W/m² of irradiance.
@@ -55,14 +55,14 @@ impl Shining<'_> {
         &self,
         occluders: &Occluders,
         numbers: impl Iterator<Item = u32>,
-    ) -> Vec<Line> {
+    ) -> Vec<EventLine> {
         let mut lines = Vec::new();
         numbers.for_each(|number| self.lines_by(occluders, number, &mut lines));
         lines
     }
 
     /// The lines that one occluder makes.
-    fn lines_by(&self, occluders: &Occluders, occluder: u32, lines: &mut Vec<Line>) {
+    fn lines_by(&self, occluders: &Occluders, occluder: u32, lines: &mut Vec<EventLine>) {
         let receiver = self.receiver.plane;
         let between = self.lamp.front.clip(&receiver.clip(occluders.polygon(occluder).corners));
         let n = between.len();
@@ -105,7 +105,7 @@ impl Shining<'_> {
     }
 
     /// Adds what an edge, or the part of it below an eye, throws.
-    fn add(&self, edge: Option<[DVec3; 2]>, eye: DVec3, lines: &mut Vec<Line>) {
+    fn add(&self, edge: Option<[DVec3; 2]>, eye: DVec3, lines: &mut Vec<EventLine>) {
         if let Some(edge) = edge {
             let ends = edge.map(|p| project(eye, p, self.receiver.plane));
             self.keep(ends, self.penumbra(eye, edge[0].midpoint(edge[1])), lines);
@@ -123,13 +123,13 @@ impl Shining<'_> {
     ///
     /// Over a width w, interpolation loses at most U min(1, w/4W) min(1, length/w) of what crosses a border of width
     /// W, where the lamp sends U.
-    fn keep(&self, ends: [DVec3; 2], penumbra: f64, lines: &mut Vec<Line>) {
+    fn keep(&self, ends: [DVec3; 2], penumbra: f64, lines: &mut Vec<EventLine>) {
         let corners = self.receiver.corners;
         let width = corners[0].distance(corners[corners.len() / 2]);
         let steep = (width / (4.0 * penumbra).max(f64::MIN_POSITIVE)).min(1.0);
         let bound = self.most * steep * (ends[0].distance(ends[1]) / width).min(1.0);
         if bound > self.least {
-            lines.push(Line { ends, bound, lamp: self.number });
+            lines.push(EventLine { ends, bound, lamp: self.number });
         }
     }
 }

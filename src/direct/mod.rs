@@ -32,6 +32,6 @@ mod evaluation;
 mod patch_light;
 
 pub use lamps::Lamps;
-pub use lines::Line;
+pub use lines::EventLine;
 pub use patch_light::{Outlook, PatchLight};
 pub(crate) use sent::Sent;

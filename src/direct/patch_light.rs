@@ -10,7 +10,7 @@ use super::candidates::{Candidate, Candidates, Narrowing};
 use super::evaluation::{Evaluation, POOLED};
 use super::lamp::Lamp;
 use super::lamps::Lamps;
-use super::lines::{Line, Shining};
+use super::lines::{EventLine, Shining};
 use super::punctual;
 use crate::colour::{Rgb, strength};
 use crate::light::Direct;
@@ -158,7 +158,7 @@ impl PatchLight {
     ///
     /// The sky makes none: its pieces have no borders that could be seen. Nor do bodies, which are round. Nor are there
     /// any of lamps that more stands before than is cut out of them: what crowds throw has no borders to speak of.
-    pub fn lines(&self, mesh: &Mesh, patch: PatchId, least: f64) -> Vec<Line> {
+    pub fn lines(&self, mesh: &Mesh, patch: PatchId, least: f64) -> Vec<EventLine> {
         let corners = &mesh[patch].corners;
         let receiver = PlanarPolygon::new(corners, self.normals[patch.index()]);
         let mut lines = Vec::new();

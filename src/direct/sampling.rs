@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::view::{Seen, View};
+use super::view::{LampView, Seen};
 use crate::visibility::Occluders;
 
 /// Most rays to a lamp before no more cells are quartered.
@@ -14,7 +14,7 @@ const MOST_RAYS: u64 = 288;
 /// Most rows of cells on each triangle to begin with: more would not find what fewer miss at a tenth of the cost.
 const MOST_ROWS: f64 = 4.0;
 
-impl View<'_> {
+impl LampView<'_> {
     /// What is not hidden, by rays: right to within `error` of the exitance, unless that takes too many.
     pub(super) fn sampled(&self, occluders: &Occluders, error: f64) -> Seen {
         Sampling::new(self, occluders, error).run()
@@ -28,7 +28,7 @@ impl View<'_> {
 
 /// A triangle of a lamp, and the ray to its middle.
 #[derive(Clone, Copy)]
-struct Cell {
+struct LampCell {
     corners: [DVec3; 3],
     weight: f64,
     seen: bool,
@@ -36,7 +36,7 @@ struct Cell {
 
 /// Rays from a place to a lamp.
 pub(super) struct Sampling<'a> {
-    view: &'a View<'a>,
+    view: &'a LampView<'a>,
     occluders: &'a Occluders,
     /// Of the weight.
     error: f64,
@@ -46,7 +46,7 @@ pub(super) struct Sampling<'a> {
 
 impl<'a> Sampling<'a> {
     /// Looks until the weight of what is seen is right to within `error`.
-    pub(super) fn new(view: &'a View<'a>, occluders: &'a Occluders, error: f64) -> Self {
+    pub(super) fn new(view: &'a LampView<'a>, occluders: &'a Occluders, error: f64) -> Self {
         // The mean of n cells that are either seen or not is off by half their spread over √n.
         let cells = (view.weight / (2.0 * error.max(f64::MIN_POSITIVE))).powi(2);
         let triangles = (view.polygon.len() - 2) as f64;
@@ -55,7 +55,7 @@ impl<'a> Sampling<'a> {
     }
 
     /// Looks at cells in so many rows on each triangle, and at no others.
-    pub(super) fn evenly(view: &'a View<'a>, occluders: &'a Occluders, rows: u32) -> Self {
+    pub(super) fn evenly(view: &'a LampView<'a>, occluders: &'a Occluders, rows: u32) -> Self {
         Self { view, occluders, error: f64::INFINITY, rows, rays: 0 }
     }
 
@@ -64,8 +64,8 @@ impl<'a> Sampling<'a> {
         let cells = self.first_cells();
         let whole: f64 = cells.iter().map(|cell| cell.weight).sum();
         let is_mixed = cells.iter().any(|cell| cell.seen != cells[0].seen);
-        let is_open = |cell: &&Cell| is_mixed && cell.is_on_border(&cells);
-        let (mut open, settled): (Vec<Cell>, Vec<Cell>) = cells.iter().partition(is_open);
+        let is_open = |cell: &&LampCell| is_mixed && cell.is_on_border(&cells);
+        let (mut open, settled): (Vec<LampCell>, Vec<LampCell>) = cells.iter().partition(is_open);
         let mut settled = seen_of(&settled);
         while spread(&open) > self.error && self.rays < MOST_RAYS {
             let mut next = Vec::with_capacity(2 * open.len());
@@ -95,31 +95,31 @@ impl<'a> Sampling<'a> {
         Seen { weight: share * self.view.weight, rays: self.rays }
     }
 
-    fn first_cells(&mut self) -> Vec<Cell> {
+    fn first_cells(&mut self) -> Vec<LampCell> {
         let (polygon, rows) = (&self.view.polygon, self.rows);
         let triangles = (1..polygon.len() - 1).map(|k| [polygon[0], polygon[k], polygon[k + 1]]);
         triangles.flat_map(|triangle| rows_of(triangle, rows)).map(|c| self.cell(c)).collect()
     }
 
-    fn cell(&mut self, corners: [DVec3; 3]) -> Cell {
+    fn cell(&mut self, corners: [DVec3; 3]) -> LampCell {
         self.rays += 1;
         let middle = corners.iter().sum::<DVec3>() / 3.0;
         let seen = self.view.sees(self.occluders, middle);
-        Cell { corners, weight: self.view.weight_of(&corners), seen }
+        LampCell { corners, weight: self.view.weight_of(&corners), seen }
     }
 
     /// The quarters of a cell; the middle one has the cell's own ray.
-    fn quarters(&mut self, cell: &Cell) -> [Cell; 4] {
+    fn quarters(&mut self, cell: &LampCell) -> [LampCell; 4] {
         let [a, b, c] = cell.corners;
         let [d, e, f] = [a.midpoint(b), b.midpoint(c), c.midpoint(a)];
         let middle = [d, e, f];
         let weight = self.view.weight_of(&middle);
-        let own = Cell { corners: middle, weight, seen: cell.seen };
+        let own = LampCell { corners: middle, weight, seen: cell.seen };
         [self.cell([a, d, f]), self.cell([d, b, e]), self.cell([f, e, c]), own]
     }
 }
 
-impl Cell {
+impl LampCell {
     /// True if one of the cells that have an edge in common with it is seen and the other is not.
     fn is_on_border(&self, cells: &[Self]) -> bool {
         let near = 1e-6 * self.corners[0].distance(self.corners[1]);
@@ -132,12 +132,12 @@ impl Cell {
     }
 }
 
-fn seen_of(cells: &[Cell]) -> f64 {
+fn seen_of(cells: &[LampCell]) -> f64 {
     cells.iter().filter(|cell| cell.seen).map(|cell| cell.weight).sum()
 }
 
 /// Standard deviation of what is seen of cells through which a border runs anywhere: that of even numbers.
-fn spread(cells: &[Cell]) -> f64 {
+fn spread(cells: &[LampCell]) -> f64 {
     (cells.iter().map(|cell| cell.weight * cell.weight).sum::<f64>() / 12.0).sqrt()
 }
 

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::lamp::Lamp;
 use super::lamps::Lamps;
 use super::punctual;
-use super::view::View;
+use super::view::LampView;
 use crate::colour::Rgb;
 use crate::visibility::{Occluders, SurfacePoint};
 
@@ -24,7 +24,7 @@ impl Lamps {
         receiver: SurfacePoint,
         mut random: impl FnMut() -> f64,
     ) -> Rgb {
-        let views: Vec<View<'_>> =
+        let views: Vec<LampView<'_>> =
             self.list.iter().filter_map(|lamp| lamp.view(receiver)).collect();
         let all: f64 = views.iter().map(|view| view.unoccluded().element_sum()).sum();
         let mut light = Rgb::ZERO;

@@ -13,7 +13,7 @@ pub(super) const FAR: f64 = 0.01;
 
 /// The part of a lamp above the horizon of a place, as a convex polygon.
 #[derive(Clone, Debug)]
-pub(super) struct View<'a> {
+pub(super) struct LampView<'a> {
     pub(super) receiver: SurfacePoint,
     pub(super) polygon: Polygon,
     /// Unit normal of the polygon, towards the place.
@@ -36,7 +36,7 @@ pub(super) struct Seen {
     pub(super) rays: u64,
 }
 
-impl View<'_> {
+impl LampView<'_> {
     /// What arrives if nothing stands between, W/m².
     pub(super) fn unoccluded(&self) -> Rgb {
         self.exitance * self.weight

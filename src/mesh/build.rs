@@ -23,7 +23,7 @@ const CLOSE: f64 = 1.0 / 32.0;
 const AT_ONCE: usize = 4096;
 
 /// What a patch is made from.
-struct Piece {
+struct PatchOutline {
     outline: Convex,
     /// Of the sheet, those near it.
     contacts: SmallVec<[u32; 4]>,
@@ -45,7 +45,7 @@ impl Mesh {
         let numbers: Vec<u32> = (0..surfaces.list.len() as u32).collect();
         for numbers in numbers.chunks(AT_ONCE) {
             let pieces = |&number: &u32| mesh.index.pieces(surfaces, number, settings);
-            let pieces: Vec<Vec<Piece>> = numbers.par_iter().map(pieces).collect();
+            let pieces: Vec<Vec<PatchOutline>> = numbers.par_iter().map(pieces).collect();
             for (&number, pieces) in numbers.iter().zip(pieces) {
                 pieces.into_iter().for_each(|piece| mesh.add_patch(surfaces, number, piece));
             }
@@ -57,8 +57,8 @@ impl Mesh {
     }
 
     /// Adds a patch with its element; none where the corners are so close together that they enclose nothing.
-    fn add_patch(&mut self, surfaces: &Surfaces, number: u32, piece: Piece) {
-        let Piece { outline, contacts } = piece;
+    fn add_patch(&mut self, surfaces: &Surfaces, number: u32, piece: PatchOutline) {
+        let PatchOutline { outline, contacts } = piece;
         let surface = &surfaces.list[number as usize];
         let outline = self.settled(number, &outline);
         if outline.len() < 3 || polygon::area(&outline) <= 0.0 {
@@ -277,12 +277,12 @@ pub fn patch_counts(surfaces: &Surfaces, settings: &Settings) -> Vec<usize> {
 
 impl VertexIndex {
     /// The pieces of a surface, in the order of its patches.
-    fn pieces(&self, surfaces: &Surfaces, number: u32, settings: &Settings) -> Vec<Piece> {
+    fn pieces(&self, surfaces: &Surfaces, number: u32, settings: &Settings) -> Vec<PatchOutline> {
         let surface = &surfaces.list[number as usize];
         let SurfaceVertices { contacts, apart, .. } = &self.sheets[number as usize];
         let flat = |line: &Contact| boxes::around(line.segment.map(|p| p.extend(0.0)));
         let tree = Tree::new(contacts.iter().map(flat).collect());
-        let piece = |outline: Convex| Piece {
+        let piece = |outline: Convex| PatchOutline {
             contacts: touching(contacts, &tree, &outline, *apart),
             outline,
         };

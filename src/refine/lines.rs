@@ -6,7 +6,7 @@ use smallvec::{SmallVec, smallvec};
 use super::events::{Event, joined};
 use super::oracle::Oracle;
 use crate::colour::strength;
-use crate::direct::{Line, PatchLight};
+use crate::direct::{EventLine, PatchLight};
 use crate::light::Optics;
 use crate::mesh::{Crossing, Mesh, Patch, PatchId, Split};
 use crate::surface::polygon::{self, Convex, Segment};
@@ -82,7 +82,7 @@ impl LineSearch<'_> {
         let borders = polygon::borders(&outline);
         let allowed = oracle.allowed_in_the_dark(mesh, *root);
         let lines = light.lines(mesh, patch, allowed / strength(reflectance));
-        let inside = lines.into_iter().filter_map(|Line { ends, lamp, bound }| {
+        let inside = lines.into_iter().filter_map(|EventLine { ends, lamp, bound }| {
             let segment = ends.map(|p| plane.flatten(p));
             let segment = polygon::clip(segment, &borders, tolerance)?;
             let is_long = segment[0].distance(segment[1]) >= 2.0 * oracle.min_element();

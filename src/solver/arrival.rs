@@ -52,7 +52,8 @@ pub(super) fn arrival(
         if context.optics.reflects(patch) || context.groups.holds(patch) || is_even() {
             return known;
         }
-        let part = Part { corners: whole.corners.iter().copied().collect(), outlook: &outlook };
+        let part =
+            PatchPart { corners: whole.corners.iter().copied().collect(), outlook: &outlook };
         part.integral(part.power(), error, 0)
     };
     numbers.par_iter().map(on).collect()
@@ -77,7 +78,7 @@ pub(super) fn steep_means(
         let plane = mesh.plane(element.patch);
         let corners = element.corners.iter().map(|&v| plane.lift(mesh[v].position)).collect();
         let outlook = context.light.on(element.patch);
-        let part = Part { corners, outlook: &outlook };
+        let part = PatchPart { corners, outlook: &outlook };
         Some((leaf, part.integral(part.power(), error, 0) / element.area))
     };
     let found: Vec<Option<(ElementId, Rgb)>> = leaves.par_iter().map(mean).collect();
@@ -110,12 +111,12 @@ fn is_uneven(mesh: &Mesh, light: &VertexLight, patch: PatchId) -> bool {
 }
 
 /// A convex part of a patch.
-struct Part<'a> {
+struct PatchPart<'a> {
     corners: SmallVec<[DVec3; 4]>,
     outlook: &'a Outlook<'a>,
 }
 
-impl Part<'_> {
+impl PatchPart<'_> {
     fn centre(&self) -> DVec3 {
         self.corners.iter().sum::<DVec3>() / self.corners.len() as f64
     }

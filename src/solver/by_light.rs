@@ -13,7 +13,7 @@ use super::energy::Energy;
 use super::exchange::Exchange;
 use super::groups::Groups;
 use super::interpolate::{REFLECTED, interpolate};
-use super::lit::Lit;
+use super::lit_mesh::LitMesh;
 use super::observer::Observer;
 use super::solution::{Progress, Solution};
 use super::start::{DARK, check_reflectances, lamps_on};
@@ -72,12 +72,12 @@ pub fn solve_by_light(
     let mut mesh = Mesh::new(first, settings);
     let mut lights = vec![VertexLight::default(); alone.len()];
     for (alone, light) in alone.iter().zip(&mut lights) {
-        let lit = &mut Lit { mesh: &mut mesh, light };
+        let lit = &mut LitMesh { mesh: &mut mesh, light };
         direct_pass::refine(alone.context(), settings, lit, &mut observer);
     }
     let mut exchanges = Vec::new();
     for (alone, light) in alone.iter().zip(&mut lights) {
-        let (context, lit) = (alone.context(), &mut Lit { mesh: &mut mesh, light });
+        let (context, lit) = (alone.context(), &mut LitMesh { mesh: &mut mesh, light });
         direct_pass::light_leaves(context, lit, &mut observer);
         let mut exchange = Exchange::new(context, settings, lit.mesh, lit.light, &mut observer)?;
         exchange.reach_vertices(context, settings, lit, &mut observer);
@@ -87,7 +87,7 @@ pub fn solve_by_light(
         let mut mesh = mesh.clone();
         direct_pass::light_leaves(
             alone.context(),
-            &mut Lit { mesh: &mut mesh, light: &mut light },
+            &mut LitMesh { mesh: &mut mesh, light: &mut light },
             &mut observer,
         );
         // It has done without the elements that other lights asked for later.

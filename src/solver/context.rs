@@ -22,7 +22,7 @@ pub(super) struct Context<'a> {
 
 /// What reflected light meets on its way to a point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Surroundings<'a> {
+pub(super) struct GatherContext<'a> {
     pub(super) surfaces: &'a Surfaces,
     pub(super) occluders: &'a Occluders,
     pub(super) groups: &'a Groups,
@@ -40,8 +40,8 @@ impl<'a> Context<'a> {
     }
 
     /// What reflected light is gathered in.
-    pub(super) fn surroundings(self) -> Surroundings<'a> {
+    pub(super) fn to_gather(self) -> GatherContext<'a> {
         let Self { surfaces, occluders, groups, .. } = self;
-        Surroundings { surfaces, occluders, groups }
+        GatherContext { surfaces, occluders, groups }
     }
 }

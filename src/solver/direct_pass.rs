@@ -8,7 +8,7 @@ use smallvec::SmallVec;
 
 use super::arrival::steep_means;
 use super::context::Context;
-use super::lit::Lit;
+use super::lit_mesh::LitMesh;
 use super::lookout::neighbours;
 use super::observer::Observer;
 use super::outlooks::Outlooks;
@@ -32,7 +32,7 @@ const PROBES: usize = 4;
 /// Vertices of facets that are in one group and at one place see the same share of it.
 fn light(
     outlooks: &Outlooks<'_>,
-    Lit { mesh, light }: &mut Lit<'_>,
+    LitMesh { mesh, light }: &mut LitMesh<'_>,
     elements: &[ElementId],
     observer: &mut Observer<'_>,
 ) {
@@ -126,7 +126,11 @@ fn light_together(light: &PatchLight, mesh: &Mesh, vertices: &[VertexId]) -> Sma
 }
 
 /// Evaluates direct light at the corners of all leaves, and in their middle, as their means need.
-pub(super) fn light_leaves(context: Context<'_>, lit: &mut Lit<'_>, observer: &mut Observer<'_>) {
+pub(super) fn light_leaves(
+    context: Context<'_>,
+    lit: &mut LitMesh<'_>,
+    observer: &mut Observer<'_>,
+) {
     // Facets are so small that their corners tell enough.
     let is_whole = |&leaf: &ElementId| !context.groups.holds(lit.mesh[leaf].patch);
     let leaves: Vec<ElementId> = lit.mesh.leaves().filter(is_whole).collect();
@@ -148,7 +152,7 @@ fn shown(optics: &Optics, light: &VertexLight, element: &Element) -> impl Fn(Ver
 }
 
 /// What direct light is judged by.
-struct Judge<'a> {
+struct DirectJudge<'a> {
     context: Context<'a>,
     oracle: Oracle,
     /// By patch.
@@ -159,7 +163,7 @@ struct Judge<'a> {
 pub(super) fn refine(
     context: Context<'_>,
     settings: &Settings,
-    lit: &mut Lit<'_>,
+    lit: &mut LitMesh<'_>,
     observer: &mut Observer<'_>,
 ) {
     if observer.tell(Phase::Direct, 0.0).is_break() {
@@ -176,7 +180,8 @@ pub(super) fn refine(
         context.optics,
         lit.light,
     );
-    let mut judge = Judge { context, oracle, lines: vec![Vec::new(); lit.mesh.patches.len()] };
+    let mut judge =
+        DirectJudge { context, oracle, lines: vec![Vec::new(); lit.mesh.patches.len()] };
     let mut candidates: Vec<ElementId> =
         lit.mesh.leaves().filter(|&e| judge.may_divide(lit.mesh, lit.light, e)).collect();
     if settings.discontinuity_lines && settings.max_level > 0 {
@@ -192,8 +197,8 @@ pub(super) fn refine(
         let middles: Vec<Middle> = candidates.iter().map(|&e| lit.mesh.middle(e)).collect();
         light(&outlooks, lit, &candidates, observer);
         let judged: Vec<(ElementId, &Middle)> = candidates.iter().copied().zip(&middles).collect();
-        let Lit { mesh, light } = &mut *lit;
-        let round = Round { judge: &judge, outlooks: &outlooks, mesh, light };
+        let LitMesh { mesh, light } = &mut *lit;
+        let round = LevelJudge { judge: &judge, outlooks: &outlooks, mesh, light };
         let verdict = |&(element, middle): &(ElementId, &Middle)| round.divide(element, middle);
         let verdicts: Vec<Option<Split>> = evaluate(context.light, &judged, verdict, observer);
         if !mesh.has_room_for(verdicts.iter().flatten().count()) {
@@ -214,7 +219,7 @@ pub(super) fn refine(
     }
 }
 
-impl Judge<'_> {
+impl DirectJudge<'_> {
     fn may_divide(&self, mesh: &Mesh, light: &VertexLight, element: ElementId) -> bool {
         self.oracle.may_divide(mesh, element)
             && self.context.optics.reflects(mesh[element].patch)
@@ -250,17 +255,17 @@ impl Judge<'_> {
 }
 
 /// A level of elements and what is known about them.
-struct Round<'r, 'a> {
-    judge: &'r Judge<'a>,
+struct LevelJudge<'r, 'a> {
+    judge: &'r DirectJudge<'a>,
     outlooks: &'r Outlooks<'a>,
     mesh: &'r Mesh,
     light: &'r VertexLight,
 }
 
-impl Round<'_, '_> {
+impl LevelJudge<'_, '_> {
     /// How to divide an element, if at all: along a discontinuity line, or as the oracle says.
     fn divide(&self, element: ElementId, middle: &Middle) -> Option<Split> {
-        let Self { judge: Judge { context, oracle, lines }, mesh, light, .. } = self;
+        let Self { judge: DirectJudge { context, oracle, lines }, mesh, light, .. } = self;
         let shown = shown(context.optics, light, &mesh[element]);
         let sample = Sample::new(mesh, element, &shown);
         let lines = &lines[mesh[element].patch.index()];
@@ -272,7 +277,7 @@ impl Round<'_, '_> {
 
     /// True if light somewhere inside an element is off by more than is allowed, W/m².
     fn is_off(&self, element: ElementId, allowed: f64) -> bool {
-        let Self { judge: Judge { context, oracle, .. }, outlooks, mesh, light } = self;
+        let Self { judge: DirectJudge { context, oracle, .. }, outlooks, mesh, light } = self;
         let patch = mesh[element].patch;
         let outlook = outlooks.from(mesh, element);
         // Between the middles of small elements is nothing to be found where nothing stands before lamps; in crowds,

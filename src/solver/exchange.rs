@@ -4,7 +4,7 @@ use super::context::Context;
 use super::energy::Energy;
 use super::gather::Gatherer;
 use super::interpolate::{REFLECTED, interpolate};
-use super::lit::Lit;
+use super::lit_mesh::LitMesh;
 use super::observer::Observer;
 use super::progressive::Shooting;
 use super::relaxation::RelaxationStep;
@@ -65,7 +65,7 @@ impl Exchange {
         &mut self,
         context: Context<'_>,
         settings: &Settings,
-        lit: &mut Lit<'_>,
+        lit: &mut LitMesh<'_>,
         observer: &mut Observer<'_>,
     ) {
         if self.stop == Stop::Converged {
@@ -82,15 +82,14 @@ impl Exchange {
         &mut self,
         context: Context<'_>,
         settings: &Settings,
-        lit: &mut Lit<'_>,
+        lit: &mut LitMesh<'_>,
         observer: &mut Observer<'_>,
     ) {
         let optics = context.optics;
         let sources = self.sources(lit.mesh, optics, lit.light);
         let level = sources.level(lit.mesh, lit.light);
         let oracle = Oracle::of_reflected_light(settings, context.surfaces.extent, level);
-        let mut gatherer =
-            Gatherer::new(context.surroundings(), settings, lit.mesh, sources, level);
+        let mut gatherer = Gatherer::new(context.to_gather(), settings, lit.mesh, sources, level);
         for round in 1..=ROUNDS {
             indirect_pass::refine(settings, &oracle, &mut gatherer, lit, observer);
             direct_pass::light_leaves(context, lit, observer);

@@ -11,13 +11,13 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-use super::context::Surroundings;
+use super::context::GatherContext;
 use super::glare::{Gaze, glaring};
 use super::groups::Groups;
-use super::lit::Lit;
+use super::lit_mesh::LitMesh;
 use super::lookout::{Arrival, LightField, Lookout, lookouts};
 use super::observer::Observer;
-use super::sources::{Piece, Sources};
+use super::sources::{RadiosityPiece, Sources};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::{
@@ -83,7 +83,7 @@ pub(super) struct Gatherer<'a> {
 
 impl<'a> Gatherer<'a> {
     pub(super) fn new(
-        Surroundings { surfaces, occluders, groups }: Surroundings<'a>,
+        GatherContext { surfaces, occluders, groups }: GatherContext<'a>,
         settings: &Settings,
         mesh: &Mesh,
         sources: Sources<'a>,
@@ -123,7 +123,7 @@ impl<'a> Gatherer<'a> {
     /// Evaluates indirect light at those of the vertices that lack it.
     pub(super) fn light(
         &mut self,
-        Lit { mesh, light }: &mut Lit<'_>,
+        LitMesh { mesh, light }: &mut LitMesh<'_>,
         vertices: impl IntoIterator<Item = VertexId>,
         observer: &mut Observer<'_>,
     ) {
@@ -157,7 +157,7 @@ impl<'a> Gatherer<'a> {
     /// of those that see much of what has changed, and of all that were interpolated.
     pub(super) fn replace_sources(
         &mut self,
-        Lit { mesh, light }: &mut Lit<'_>,
+        LitMesh { mesh, light }: &mut LitMesh<'_>,
         sources: Sources<'a>,
     ) {
         let before = std::mem::replace(&mut self.sources, sources);
@@ -315,7 +315,13 @@ impl<'a> Gatherer<'a> {
 
     /// Irradiance by a piece of a leaf with this form factor, divided while its variation matters, and
     /// how many factors that took.
-    fn piece_light(&self, eye: SurfacePoint, piece: &Piece, factor: f64, depth: u32) -> (Rgb, u64) {
+    fn piece_light(
+        &self,
+        eye: SurfacePoint,
+        piece: &RadiosityPiece,
+        factor: f64,
+        depth: u32,
+    ) -> (Rgb, u64) {
         if depth == 0 || factor * piece.spread() <= self.fine {
             return (piece.mean() * factor, 0);
         }

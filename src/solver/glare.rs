@@ -10,7 +10,7 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::lookout::Arrival;
-use super::sources::{Piece, Sources};
+use super::sources::{RadiosityPiece, Sources};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
 use crate::mesh::{ElementId, Mesh, PatchId};
@@ -85,12 +85,12 @@ impl Gaze<'_> {
 
 impl Look<'_, '_> {
     /// Irradiance by a piece of a leaf with this form factor, divided while its variation matters.
-    fn light(&mut self, piece: &Piece, factor: f64, depth: u32) -> Rgb {
+    fn light(&mut self, piece: &RadiosityPiece, factor: f64, depth: u32) -> Rgb {
         if depth == 0 || !self.is_coarse(factor, piece.spread()) {
             return if self.is_clear { piece.mean() * factor } else { self.seen(piece) };
         }
         let parts = piece.parts().into_iter();
-        let mut light = |part: Piece| {
+        let mut light = |part: RadiosityPiece| {
             let factor = self.factor(&part.corners);
             self.light(&part, factor, depth - 1)
         };
@@ -107,7 +107,7 @@ impl Look<'_, '_> {
     }
 
     /// Irradiance by what is not hidden of a piece.
-    fn seen(&mut self, piece: &Piece) -> Rgb {
+    fn seen(&mut self, piece: &RadiosityPiece) -> Rgb {
         let SurfacePoint { position: site, normal } = self.gaze.eye;
         let above = HalfSpace::new(site, normal).clip(&piece.corners);
         if above.len() < 3 {

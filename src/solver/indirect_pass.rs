@@ -1,7 +1,7 @@
 //! Indirect light over the mesh: gathered where it varies, interpolated elsewhere.
 
 use super::gather::Gatherer;
-use super::lit::Lit;
+use super::lit_mesh::LitMesh;
 use super::{Observer, Phase};
 use crate::colour::Rgb;
 use crate::light::Optics;
@@ -16,7 +16,7 @@ pub(super) fn refine(
     settings: &Settings,
     oracle: &Oracle,
     gatherer: &mut Gatherer<'_>,
-    lit: &mut Lit<'_>,
+    lit: &mut LitMesh<'_>,
     observer: &mut Observer<'_>,
 ) {
     let optics = gatherer.optics();
@@ -52,7 +52,7 @@ pub(super) fn refine(
 
 /// Radiosity by reflected light at a vertex of an element, W/m².
 fn shown(
-    Lit { mesh, light }: &Lit<'_>,
+    LitMesh { mesh, light }: &LitMesh<'_>,
     optics: &Optics,
     element: ElementId,
 ) -> impl Fn(VertexId) -> Rgb {
@@ -65,7 +65,7 @@ fn shown(
 fn divide(
     oracle: &Oracle,
     optics: &Optics,
-    lit: &mut Lit<'_>,
+    lit: &mut LitMesh<'_>,
     candidates: &[ElementId],
     middles: &[Middle],
 ) -> Vec<ElementId> {
@@ -76,7 +76,7 @@ fn divide(
     };
     let verdicts: Vec<Option<(ElementId, Split)>> =
         candidates.iter().zip(middles).map(verdict).collect();
-    let Lit { mesh, light } = lit;
+    let LitMesh { mesh, light } = lit;
     let divided = verdicts.iter().flatten().filter(|(e, _)| mesh[*e].is_leaf()).count();
     if !mesh.has_room_for(divided) {
         return Vec::new();

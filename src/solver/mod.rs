@@ -20,7 +20,7 @@ mod lookout;
 
 mod context;
 mod interpolate;
-mod lit;
+mod lit_mesh;
 mod outlooks;
 mod sources;
 mod start;
@@ -69,7 +69,7 @@ pub use work_plane::{Evenness, WorkPlane};
 use context::Context;
 use exchange::Exchange;
 use groups::Groups;
-use lit::Lit;
+use lit_mesh::LitMesh;
 use observer::Observer;
 use start::{check_reflectances, lamps_on};
 
@@ -125,7 +125,7 @@ pub fn solve_with(
     let groups = Groups::new(surfaces, settings, &mesh);
     let context = Context::new(surfaces, &optics, &lamps, &groups);
 
-    let lit = &mut Lit { mesh: &mut mesh, light: &mut light };
+    let lit = &mut LitMesh { mesh: &mut mesh, light: &mut light };
     direct_pass::refine(context, settings, lit, &mut observer);
     direct_pass::light_leaves(context, lit, &mut observer);
     let stages = stages::stages(context, settings, lit, stages, &mut observer)?;

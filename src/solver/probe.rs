@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 
-use super::context::Surroundings;
+use super::context::GatherContext;
 use super::gather::Gatherer;
 use super::groups::Groups;
 use super::solution::Solution;
@@ -64,7 +64,7 @@ pub fn read(
     let sources = Sources::of_vertices(mesh, optics, vertex_light);
     let level = sources.level(mesh, vertex_light);
     let groups = Groups::new(surfaces, settings, mesh);
-    let surroundings = Surroundings { surfaces, occluders: &occluders, groups: &groups };
+    let surroundings = GatherContext { surfaces, occluders: &occluders, groups: &groups };
     let gatherer = Gatherer::new(surroundings, settings, mesh, sources, level);
     let targets = HemicubeScene::new(&mesh.patches);
     let hemicube = |_: &Enough| Hemicube::new(gatherer.delta(), &targets, &occluders);

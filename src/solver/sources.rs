@@ -36,7 +36,7 @@ pub(super) struct Sources<'a> {
 
 /// A piece of an element, with the radiosities of its corners.
 #[derive(Clone, Debug)]
-pub(super) struct Piece {
+pub(super) struct RadiosityPiece {
     pub(super) corners: SmallVec<[DVec3; 4]>,
     light: SmallVec<[Rgb; 4]>,
 }
@@ -114,7 +114,7 @@ impl<'a> Sources<'a> {
     }
 
     /// A leaf as a piece whose mean is the leaf's; the corners say how light varies over it.
-    pub(super) fn piece(&self, mesh: &Mesh, leaf: ElementId) -> Piece {
+    pub(super) fn piece(&self, mesh: &Mesh, leaf: ElementId) -> RadiosityPiece {
         let plane = mesh.plane(mesh[leaf].patch);
         let (light, mean) = (self.corners(mesh, leaf), self.mean(leaf));
         let around = light.iter().sum::<Rgb>() / light.len() as f64;
@@ -122,7 +122,7 @@ impl<'a> Sources<'a> {
         let adapted = |corner: Rgb| {
             Rgb::select(mean.cmplt(around), corner * (mean / around), corner + (mean - around))
         };
-        Piece {
+        RadiosityPiece {
             corners: mesh[leaf].corners.iter().map(|&v| plane.lift(mesh[v].position)).collect(),
             light: light.into_iter().map(adapted).collect(),
         }
@@ -152,7 +152,7 @@ impl<'a> Sources<'a> {
     }
 }
 
-impl Piece {
+impl RadiosityPiece {
     /// Mean radiosity, W/m².
     pub(super) fn mean(&self) -> Rgb {
         self.light.iter().sum::<Rgb>() / self.light.len() as f64

@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use super::exchange::Exchange;
-use super::lit::Lit;
+use super::lit_mesh::LitMesh;
 use super::observer::Observer;
 use super::solution::Solution;
 use super::stop::Stop;
@@ -16,7 +16,7 @@ use crate::settings::Settings;
 pub(super) fn stages(
     context: Context<'_>,
     settings: &Settings,
-    Lit { mesh, light }: &Lit<'_>,
+    LitMesh { mesh, light }: &LitMesh<'_>,
     shots: &[usize],
     observer: &mut Observer<'_>,
 ) -> Result<Vec<Solution>> {

@@ -4,7 +4,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 use radiosity::direct::Lamps;
 use radiosity::mesh::{ElementId, Mesh};
-use radiosity::visibility::{Met, Occluders};
+use radiosity::visibility::{Met, Occluders, SurfacePoint};
 use radiosity::{Settings, Surfaces, TriMesh, reconstruct, surfaces_of};
 use rayon::ThreadPoolBuilder;
 
@@ -101,7 +101,7 @@ fn the_first_of_several_polygons_is_met_and_its_side_told() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(8))]
     #[test]
-    fn glimpses_are_right_on_the_mean(x in -1.0..1.0_f64, z in -1.0..1.0_f64) {
+    fn single_rays_to_lamps_are_right_on_the_mean(x in -1.0..1.0_f64, z in -1.0..1.0_f64) {
         let surfaces = surfaces_of(&shipped("blocker.obj"));
         let mesh = Mesh::new(&surfaces, &Settings::draft());
         let (lamps, occluders) = (Lamps::new(&surfaces, &mesh), Occluders::new(&surfaces));
@@ -115,7 +115,7 @@ proptest! {
             ((count / 2.0_f64).ceil() * step).fract()
         };
         let rounds = 4000;
-        let sum: DVec3 = (0..rounds).map(|_| lamps.glimpse(&occluders, (place, DVec3::Y), &mut next)).sum();
+        let sum: DVec3 = (0..rounds).map(|_| lamps.sample_unbiased(&occluders, SurfacePoint::new(place, DVec3::Y), &mut next)).sum();
         let error = (sum / f64::from(rounds) - exact.irradiance).x / exact.unoccluded.x;
         prop_assert!(error.abs() < 0.01, "{error} at {place}");
     }

@@ -98,7 +98,7 @@ impl System {
 
     /// Relaxes the system, from darkness.
     pub fn relax(&self, relaxation: Relaxation, criteria: &Criteria) -> Relaxed {
-        let mut state = State::dark(self);
+        let mut state = SystemState::dark(self);
         let mut course = Convergence::new(relaxation, &state);
         let stop =
             relaxation.run(&mut state, &mut course, |_, course| criteria.judge(&course.step()));
@@ -113,7 +113,7 @@ impl System {
 }
 
 /// A system being relaxed.
-struct State<'a> {
+struct SystemState<'a> {
     system: &'a System,
     radiosity: Vec<Rgb>,
     residual: Vec<Rgb>,
@@ -121,14 +121,14 @@ struct State<'a> {
     remembered: Option<Vec<Rgb>>,
 }
 
-impl<'a> State<'a> {
+impl<'a> SystemState<'a> {
     fn dark(system: &'a System) -> Self {
         let radiosity = vec![Rgb::ZERO; system.len()];
         Self { system, radiosity, residual: system.exitance.clone(), remembered: None }
     }
 }
 
-impl RelaxationSystem for State<'_> {
+impl RelaxationSystem for SystemState<'_> {
     fn rows(&self) -> usize {
         self.system.len()
     }

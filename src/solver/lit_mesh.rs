@@ -4,7 +4,7 @@ use crate::light::VertexLight;
 use crate::mesh::Mesh;
 
 /// A mesh and its light, which grow together.
-pub(super) struct Lit<'m> {
+pub(super) struct LitMesh<'m> {
     pub(super) mesh: &'m mut Mesh,
     pub(super) light: &'m mut VertexLight,
 }
