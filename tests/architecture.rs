@@ -1,5 +1,6 @@
 //! The house itself: data flows one way, files are small and say what they are for.
 
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -119,6 +120,136 @@ fn a_module_uses_only_those_to_its_left() {
             let allowed = used == own || there.is_some_and(|there| there < here);
             assert!(allowed, "{} uses crate::{used}", path.display());
         }
+    }
+}
+
+/// The paths that a text names in its `use` declarations, braces opened.
+fn used_paths(text: &str) -> Vec<Vec<String>> {
+    let mut paths = Vec::new();
+    for line in text.split('\n').enumerate().filter_map(|(k, line)| is_use(line).then_some(k)) {
+        let rest: String = text.lines().skip(line).collect::<Vec<_>>().join(" ");
+        let (_, path) = rest.split_once("use ").unwrap();
+        let (path, _) = path.split_once(';').unwrap_or((path, ""));
+        open_braces(&[], path, &mut paths);
+    }
+    paths
+}
+
+fn is_use(line: &str) -> bool {
+    let line = line.trim_start();
+    line.starts_with("use ") || line.starts_with("pub(") && line.contains(") use ")
+}
+
+fn open_braces(before: &[String], path: &str, paths: &mut Vec<Vec<String>>) {
+    let (head, list) = path.split_once('{').map_or((path, None), |(head, list)| (head, Some(list)));
+    let names = head.split("::").map(|name| name.split(" as ").next().unwrap().trim());
+    let whole: Vec<String> = before
+        .iter()
+        .cloned()
+        .chain(names.filter(|name| !name.is_empty()).map(str::to_owned))
+        .collect();
+    match list {
+        Some(list) => top_level(list).iter().for_each(|part| open_braces(&whole, part, paths)),
+        None => paths.push(whole),
+    }
+}
+
+/// The path of a file's module from the crate's root.
+fn module_path(path: &Path) -> Vec<String> {
+    let whole = path.with_extension("");
+    let names = whole.iter().map(|name| name.to_string_lossy().into_owned());
+    names.filter(|name| name != "mod").collect()
+}
+
+/// A path as seen from the crate's root, if it does not lead out of it.
+fn from_root(here: &[String], path: &[String]) -> Option<Vec<String>> {
+    let mut whole: Vec<String> = match path.first()?.as_str() {
+        "crate" => Vec::new(),
+        "self" | "super" => here.to_vec(),
+        _ => return None,
+    };
+    for name in path {
+        match name.as_str() {
+            "crate" | "self" => {}
+            "super" => drop(whole.pop()),
+            name => whole.push(name.to_owned()),
+        }
+    }
+    Some(whole)
+}
+
+/// The modules that a `mod.rs` declares, by the paragraph that they are in, and what it defines itself.
+fn map_of(text: &str) -> (HashMap<String, usize>, HashSet<String>) {
+    let (mut stage, mut stages, mut own) = (0, HashMap::new(), HashSet::new());
+    let before = std::iter::once("").chain(text.lines());
+    for line in text
+        .lines()
+        .zip(before)
+        .filter(|(_, before)| *before != "#[cfg(test)]")
+        .map(|(line, _)| line)
+    {
+        let words: Vec<&str> = line.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
+        let words: Vec<&str> = words
+            .into_iter()
+            .skip_while(|word| ["pub", "crate", "in", "super", ""].contains(word))
+            .collect();
+        match words.as_slice() {
+            [] => stage += 1,
+            ["mod", name, ..] => drop(stages.insert((*name).to_owned(), stage)),
+            ["struct" | "enum" | "trait" | "type" | "fn" | "const" | "static", name, ..]
+                if !line.starts_with(' ') =>
+            {
+                own.insert((*name).to_owned());
+            }
+            _ => {}
+        }
+    }
+    (stages, own)
+}
+
+/// Within a room, too, light falls one way: files use those in paragraphs of its `mod.rs` before their own, those in
+/// one paragraph not in a circle, and none what is defined in `mod.rs` above them.
+#[test]
+fn files_of_a_room_use_only_those_named_before_them() {
+    let sources = sources();
+    for (map, text) in sources.iter().filter(|(path, _)| path.ends_with("mod.rs")) {
+        let (stages, own) = map_of(text);
+        let room = module_path(map);
+        let mut edges: BTreeSet<(String, String)> = BTreeSet::new();
+        for (path, text) in &sources {
+            let here = module_path(path);
+            if here.len() <= room.len() || here[..room.len()] != room {
+                continue;
+            }
+            let user = &here[room.len()];
+            for used in used_paths(text.split("#[cfg(test)]").next().unwrap()) {
+                let Some(used) = from_root(&here, &used) else { continue };
+                if used.len() <= room.len()
+                    || used[..room.len()] != room
+                    || used[room.len()] == *user
+                {
+                    continue;
+                }
+                let used = &used[room.len()];
+                // Files of tests alone are in no paragraph.
+                let Some(from) = stages.get(user) else { continue };
+                assert!(!own.contains(used), "{} uses {used} of {}", path.display(), map.display());
+                if let Some(to) = stages.get(used) {
+                    assert!(to <= from, "{} uses {used}, which comes later", path.display());
+                    edges.insert((user.clone(), used.clone()));
+                }
+            }
+        }
+        // What nothing left uses cannot be in a circle.
+        loop {
+            let used: BTreeSet<String> = edges.iter().map(|(_, used)| used.clone()).collect();
+            let before = edges.len();
+            edges.retain(|(user, _)| used.contains(user));
+            if edges.len() == before {
+                break;
+            }
+        }
+        assert!(edges.is_empty(), "{}: a circle among {edges:?}", map.display());
     }
 }
 

@@ -15,43 +15,47 @@
 //! | changed by its user | `names`, `adding`, `overrides`, `ies` |
 //! | told of | `notes`, `backdrop` |
 
+pub(crate) mod boxes;
+mod notes;
+mod polygon;
+mod sequence;
+mod text;
+
 mod camera;
 mod light;
 mod material;
+mod mixed;
 mod model;
 mod photometry;
 mod texels;
 
-mod gltf;
-mod load;
-mod mixed;
+mod limits;
 mod named;
-mod obj;
-mod options;
-mod ply;
-mod stl;
-mod text;
+mod ray_casting;
 mod texture;
+mod up;
 
-pub(crate) mod boxes;
 mod corners;
 mod daylight;
 mod junctions;
-mod limits;
 mod orientation;
-mod polygon;
-mod ray_casting;
 mod repair;
-mod sequence;
-mod up;
 mod weld;
+
+mod options;
+
+mod gltf;
+mod obj;
+mod ply;
+mod stl;
+
+mod load;
 
 mod adding;
 mod backdrop;
 mod build;
 mod ies;
 mod names;
-mod notes;
 mod overrides;
 
 pub(crate) use self::gltf::sampler_of;

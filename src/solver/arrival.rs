@@ -29,8 +29,12 @@ const LEVELS: [u32; 2] = [4, 9];
 /// Parts are divided until their power changes by less than this share of all that arrives.
 pub(super) const ERROR: f64 = 2e-5;
 
-/// The same where elements reflect: of a lamp that faces a ceiling closely, hardly more than that lights the room.
-const STEEP_ERROR: f64 = 2e-6;
+/// Of what arrives on places that are this many times as bright as the mean, that much counts in it: of a lamp that faces
+/// a ceiling closely, what lights the room is hardly more than an error of what is shut in.
+const HOT: f64 = 8.0;
+
+/// The least share of all that arrives that counts.
+const LEAST: f64 = 0.1;
 
 /// Direct light on each patch, W; right to within an `error` in each part that it takes to find it, W.
 pub(super) fn arrival(
@@ -66,8 +70,7 @@ pub(super) fn steep_means(
     vertices: &VertexLight,
     leaves: &[ElementId],
 ) -> BTreeMap<ElementId, Rgb> {
-    let power = |&leaf: &ElementId| strength(vertices.mean_direct(mesh, leaf)) * mesh[leaf].area;
-    let error = STEEP_ERROR * leaves.iter().map(power).sum::<f64>();
+    let error = ERROR * counting_power(mesh, vertices, leaves);
     let mean = |&leaf: &ElementId| {
         let element = &mesh[leaf];
         if !context.optics.reflects(element.patch)
@@ -83,6 +86,19 @@ pub(super) fn steep_means(
     };
     let found: Vec<Option<(ElementId, Rgb)>> = leaves.par_iter().map(mean).collect();
     found.into_iter().flatten().collect()
+}
+
+/// What arrives on leaves, W, without most of what is shut in.
+fn counting_power(mesh: &Mesh, vertices: &VertexLight, leaves: &[ElementId]) -> f64 {
+    let area: f64 = leaves.iter().map(|&leaf| mesh[leaf].area).sum();
+    let capped = |most: f64| {
+        let power = |&leaf: &ElementId| {
+            strength(vertices.mean_direct(mesh, leaf)).min(most) * mesh[leaf].area
+        };
+        leaves.iter().map(power).sum::<f64>()
+    };
+    let all = capped(f64::INFINITY);
+    capped(HOT * all / area.max(f64::MIN_POSITIVE)).max(LEAST * all)
 }
 
 /// By how much the mean over a leaf by Simpson's rule differs from that by trapezia, W/m².

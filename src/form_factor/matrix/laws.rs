@@ -1,6 +1,6 @@
 //! How far a matrix is from the laws of form factors, and a matrix that keeps them.
 
-use super::FormFactors;
+use super::sparse::FormFactors;
 
 /// Factors below this have no say in [`FormFactors::reciprocity`].
 const LEAST: f64 = 1e-4;
