@@ -49,7 +49,10 @@ fn document(
     let all =
         Step { label: "1000 shots".to_owned(), model: Model::of_solution(reference, &end.mesh) };
     let first = &steps[0].0;
+    let last = &steps[steps.len() - 1].0;
     let stills = [first, reference].map(|mesh| picture(mesh, View::Light));
+    // A viewer begins with its last step.
+    let still = picture(last, View::Light);
     let meshes = [first, reference].map(|mesh| picture(mesh, View::Wireframe));
     let pictures = [("first shot", 0), ("1000 shots", 1)].map(|(label, number)| WipePicture {
         label,
@@ -64,7 +67,7 @@ fn document(
     let body = html! {
         h1 { "Light on its way" }
         (page::columns(&[
-            viewer(&steps.iter().map(step).collect::<Vec<_>>(), "After some shots", &stills[0]),
+            viewer(&steps.iter().map(step).collect::<Vec<_>>(), "After some shots", &still),
             viewer(&[all], "After 1000 shots", &stills[1]),
         ]))
         (page::wipe(&pictures, "After the lamp alone has shot, and long after."))

@@ -9,7 +9,7 @@ use common::{Stage, solve};
 use glam::DVec3;
 use radiosity::colour::{LUMENS_PER_WATT, Rgb};
 use radiosity::scene::{Amount, AreaLight, Light};
-use radiosity::solver::{Energy, Evenness, WorkPlane, read};
+use radiosity::solver::{Evenness, PowerBalance, WorkPlane, read};
 use radiosity::{Scene, Settings, surfaces_of};
 
 /// Flux of every lamp here, lm.
@@ -56,7 +56,7 @@ fn spot(position: DVec3, direction: DVec3) -> Light {
 }
 
 /// Mean illuminance 0.75 m over the floor, lx, and where the power went.
-fn lit(scene: &Scene) -> (f64, Energy) {
+fn lit(scene: &Scene) -> (f64, PowerBalance) {
     let surfaces = surfaces_of(scene);
     let places = WorkPlane { height: 0.75, spacing: 0.5 }.places(&surfaces).expect("it is inside");
     let settings = Settings::draft();

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use radiosity::colour::{LUMENS_PER_WATT, Rgb, luminance};
 use radiosity::mesh::Divided;
 use radiosity::reconstruct::{Angles, TriMesh};
-use radiosity::solver::{Energy, Stop};
+use radiosity::solver::{PowerBalance, Stop};
 use radiosity::{Solution, Surfaces};
 use serde::Serialize;
 
@@ -97,8 +97,8 @@ impl Summary {
     }
 }
 
-impl From<&Energy> for Balance {
-    fn from(energy: &Energy) -> Self {
+impl From<&PowerBalance> for Balance {
+    fn from(energy: &PowerBalance) -> Self {
         let watts = |power: Rgb| power.to_array();
         Self {
             emitted: watts(energy.emitted),

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::lamp::{AreaLamp, Lamp};
 use super::profile::RadianceProfile;
-use super::tally::Tally;
+use super::work_counters::WorkCounters;
 use super::{globe, glow, punctual, sky};
 use crate::light::Direct;
 use crate::mesh::Mesh;
@@ -21,7 +21,7 @@ pub struct Lamps {
     pub(super) rows: Option<u32>,
     /// Radius of the discs on which the light of points is evaluated, m.
     pub(super) blur: f64,
-    pub(super) tally: Tally,
+    pub(super) tally: WorkCounters,
 }
 
 impl Lamps {
@@ -51,7 +51,7 @@ impl Lamps {
         areas.retain(|lamp| lamp.exitance.max_element() > 0.0);
         let areas = areas.into_iter().map(Lamp::Area);
         let list = areas.chain(globes.into_iter().map(Lamp::Globe)).chain(points).collect();
-        Self { list, rows: None, blur: 0.0, tally: Tally::default() }
+        Self { list, rows: None, blur: 0.0, tally: WorkCounters::default() }
     }
 
     /// With [`Settings::shadow_rays`](crate::settings::Settings::shadow_rays): what hides a polygon is found by about

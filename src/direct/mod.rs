@@ -3,7 +3,7 @@
 //! It carries the hard edges, so it is never carried by the hemicube.
 
 mod profile;
-mod tally;
+mod work_counters;
 
 mod view;
 

@@ -9,12 +9,12 @@ use std::ops::ControlFlow;
 use super::checkpoint::Checkpoint;
 use super::context::Context;
 use super::direct_pass;
-use super::energy::Energy;
-use super::exchange::Exchange;
 use super::groups::Groups;
 use super::interpolate::{REFLECTED, interpolate};
+use super::interreflection::Interreflection;
 use super::lit_mesh::LitMesh;
 use super::observer::Observer;
+use super::power_balance::PowerBalance;
 use super::solution::{Progress, Solution};
 use super::start::{DARK, check_reflectances, lamps_on};
 use super::stop::Stop;
@@ -79,11 +79,12 @@ pub fn solve_by_light(
     for (alone, light) in alone.iter().zip(&mut lights) {
         let (context, lit) = (alone.context(), &mut LitMesh { mesh: &mut mesh, light });
         direct_pass::light_leaves(context, lit, &mut observer);
-        let mut exchange = Exchange::new(context, settings, lit.mesh, lit.light, &mut observer)?;
+        let mut exchange =
+            Interreflection::new(context, settings, lit.mesh, lit.light, &mut observer)?;
         exchange.reach_vertices(context, settings, lit, &mut observer);
         exchanges.push(exchange);
     }
-    let finish = |((alone, mut light), exchange): ((&Alone<'_>, VertexLight), Exchange)| {
+    let finish = |((alone, mut light), exchange): ((&Alone<'_>, VertexLight), Interreflection)| {
         let mut mesh = mesh.clone();
         direct_pass::light_leaves(
             alone.context(),
@@ -142,7 +143,7 @@ fn sum(solutions: &[Solution], strengths: &[Rgb]) -> Solution {
         direct: elements.clone().map(|e| total(&|s| s.light.direct[e])).collect(),
         indirect: elements.map(|e| total(&|s| s.light.indirect[e])).collect(),
     };
-    sum.energy = Energy {
+    sum.energy = PowerBalance {
         emitted: total(&|s| s.energy.emitted),
         absorbed: total(&|s| s.energy.absorbed),
         on_backs: total(&|s| s.energy.on_backs),

@@ -1,7 +1,7 @@
 //! What all passes are given.
 
+use super::gather_points::ONE_PLACE;
 use super::groups::Groups;
-use super::lookout::ONE_PLACE;
 use crate::direct::PatchLight;
 use crate::light::Optics;
 use crate::surface::Surfaces;

@@ -8,8 +8,8 @@ use smallvec::SmallVec;
 
 use super::arrival::steep_means;
 use super::context::Context;
+use super::gather_points::neighbours;
 use super::lit_mesh::LitMesh;
-use super::lookout::neighbours;
 use super::observer::Observer;
 use super::outlooks::Outlooks;
 use super::solution::Phase;

@@ -12,10 +12,10 @@ use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use super::context::GatherContext;
+use super::gather_points::{GatherPoint, IncidentLight, LightVector, gather_points};
 use super::glare::{Gaze, glaring};
 use super::groups::Groups;
 use super::lit_mesh::LitMesh;
-use super::lookout::{Arrival, LightField, Lookout, lookouts};
 use super::observer::Observer;
 use super::sources::{RadiosityPiece, Sources};
 use crate::colour::Rgb;
@@ -133,17 +133,18 @@ impl<'a> Gatherer<'a> {
         dark.sort_unstable();
         dark.dedup();
         let targets = HemicubeScene::new(&mesh.patches);
-        let lookouts = lookouts(mesh, self.groups, self.near, &dark);
-        let lit: Vec<Vec<Vec<Gathered>>> = observer.evaluate(&lookouts, |batch, enough| {
+        let gather_points = gather_points(mesh, self.groups, self.near, &dark);
+        let lit: Vec<Vec<Vec<Gathered>>> = observer.evaluate(&gather_points, |batch, enough| {
             let hemicube = || Hemicube::new(&self.delta, &targets, self.occluders);
-            let gather =
-                |hemicube: &mut Hemicube<'_>, lookout| self.gather(mesh, hemicube, lookout);
+            let gather = |hemicube: &mut Hemicube<'_>, gather_point| {
+                self.gather(mesh, hemicube, gather_point)
+            };
             let going_on = batch.par_iter().take_any_while(|_| !enough.is_said());
             going_on.map_init(hemicube, gather).collect()
         });
-        self.gathered += lookouts.len();
+        self.gathered += gather_points.len();
         self.views.resize(mesh.vertices.len(), None);
-        let vertices = lookouts.iter().flat_map(|lookout| &lookout.vertices);
+        let vertices = gather_points.iter().flat_map(|gather_point| &gather_point.vertices);
         for (&vertex, Gathered { irradiance, view, factors }) in
             vertices.zip(lit.into_iter().flatten().flatten())
         {
@@ -198,28 +199,33 @@ impl<'a> Gatherer<'a> {
         turn: f64,
     ) -> Rgb {
         let mut irradiance = Rgb::ZERO;
-        self.look(mesh, hemicube.look(point, turn), &mut |from: &Arrival<'_>| {
+        self.look(mesh, hemicube.look(point, turn), &mut |from: &IncidentLight<'_>| {
             irradiance += from.light;
         });
         irradiance
     }
 
-    /// Irradiance of the vertices of a lookout by all reflected light, and what they saw.
-    fn gather(&self, mesh: &Mesh, hemicube: &mut Hemicube<'_>, lookout: &Lookout) -> Vec<Gathered> {
-        let turn = turn(lookout.vertices[0].index() as f64);
-        let point = SurfacePoint::new(lookout.eye, lookout.normal);
+    /// Irradiance of the vertices of a gathering point by all reflected light, and what they saw.
+    fn gather(
+        &self,
+        mesh: &Mesh,
+        hemicube: &mut Hemicube<'_>,
+        gather_point: &GatherPoint,
+    ) -> Vec<Gathered> {
+        let turn = turn(gather_point.vertices[0].index() as f64);
+        let point = SurfacePoint::new(gather_point.eye, gather_point.normal);
         let normal = |v: VertexId| self.surfaces.list[mesh[v].surface as usize].plane.normal;
-        if lookout.vertices.len() == 1 {
+        if gather_point.vertices.len() == 1 {
             let mut irradiance = Rgb::ZERO;
             let (view, factors) =
-                self.look(mesh, hemicube.look(point, turn), &mut |from: &Arrival<'_>| {
+                self.look(mesh, hemicube.look(point, turn), &mut |from: &IncidentLight<'_>| {
                     irradiance += from.light;
                 });
             return vec![Gathered { irradiance, view, factors }];
         }
-        let mut field = LightField::default();
+        let mut field = LightVector::default();
         let (view, factors) =
-            self.look(mesh, hemicube.look(point, turn), &mut |from: &Arrival<'_>| {
+            self.look(mesh, hemicube.look(point, turn), &mut |from: &IncidentLight<'_>| {
                 field.add(point, from);
             });
         let light = |(k, &vertex): (usize, &VertexId)| Gathered {
@@ -227,7 +233,7 @@ impl<'a> Gatherer<'a> {
             view: view.clone(),
             factors: if k == 0 { factors } else { 0 },
         };
-        lookout.vertices.iter().enumerate().map(light).collect()
+        gather_point.vertices.iter().enumerate().map(light).collect()
     }
 
     /// Tells `arrive` of all reflected light. Returns what fills much of the view, and how many factors that took.
@@ -235,7 +241,7 @@ impl<'a> Gatherer<'a> {
         &self,
         mesh: &Mesh,
         hemicube: &Hemicube<'_>,
-        arrive: &mut impl FnMut(&Arrival<'_>),
+        arrive: &mut impl FnMut(&IncidentLight<'_>),
     ) -> (PatchView, u64) {
         let eye = hemicube.eye();
         let (mut factors, mut view) = (0, PatchView::new());
@@ -262,7 +268,7 @@ impl<'a> Gatherer<'a> {
             facets.filter(|cover| cover.front && cover.kept > 0.0)
         {
             let light = self.sources.mean(mesh[patch].root) * kept;
-            arrive(&Arrival { light, corners: &mesh[patch].corners });
+            arrive(&IncidentLight { light, corners: &mesh[patch].corners });
             if kept > WIDE {
                 view.push((patch, kept));
             }
@@ -276,7 +282,7 @@ impl<'a> Gatherer<'a> {
         mesh: &Mesh,
         hemicube: &Hemicube<'_>,
         sight: VisiblePatch,
-        arrive: &mut impl FnMut(&Arrival<'_>),
+        arrive: &mut impl FnMut(&IncidentLight<'_>),
     ) -> u64 {
         let (plane, eye) = (mesh.plane(sight.patch), hemicube.eye());
         let mut factors = 0;
@@ -303,11 +309,11 @@ impl<'a> Gatherer<'a> {
             if varies {
                 let piece = self.sources.piece(mesh, source);
                 let (light, count) = self.piece_light(eye, &piece, factor, DEEPEST);
-                arrive(&Arrival { light: visible * light, corners: &corners });
+                arrive(&IncidentLight { light: visible * light, corners: &corners });
                 factors += count;
             } else {
                 let light = visible * (self.sources.mean(source) * factor);
-                arrive(&Arrival { light, corners: &corners });
+                arrive(&IncidentLight { light, corners: &corners });
             }
         }
         factors

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::lookout::Arrival;
+use super::gather_points::IncidentLight;
 use super::sources::{RadiosityPiece, Sources};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
@@ -56,7 +56,7 @@ impl Gaze<'_> {
     pub(super) fn receive(
         &self,
         patch: PatchId,
-        arrive: &mut impl FnMut(&Arrival<'_>),
+        arrive: &mut impl FnMut(&IncidentLight<'_>),
     ) -> (f64, u64) {
         let Self { mesh, sources, eye: SurfacePoint { position: site, normal }, .. } = *self;
         let patch = &mesh[patch];
@@ -77,7 +77,7 @@ impl Gaze<'_> {
                 continue;
             }
             let light = look.light(&piece, factor, DEEPEST);
-            arrive(&Arrival { light, corners: &piece.corners });
+            arrive(&IncidentLight { light, corners: &piece.corners });
         }
         (look.factor(&patch.corners), look.factors)
     }

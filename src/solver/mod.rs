@@ -4,7 +4,7 @@
 //! refines the mesh. Reflected light is exchanged between patches, coarsely. What arrives of it at
 //! the vertices is then gathered, and refines the mesh where it varies.
 
-mod energy;
+mod power_balance;
 mod stop;
 mod work;
 
@@ -15,8 +15,8 @@ mod solution;
 mod checkpoint;
 mod observer;
 
+mod gather_points;
 mod groups;
-mod lookout;
 
 mod context;
 mod interpolate;
@@ -40,7 +40,7 @@ mod progressive;
 mod gather;
 mod indirect_pass;
 
-mod exchange;
+mod interreflection;
 
 mod by_light;
 mod stages;
@@ -58,7 +58,7 @@ use crate::surface::Surfaces;
 
 pub use by_light::{ScaledLight, solve_by_light};
 pub use checkpoint::Checkpoint;
-pub use energy::Energy;
+pub use power_balance::PowerBalance;
 pub use probe::{Reading, read};
 pub use solution::{Phase, Progress, Solution};
 pub(crate) use sources::level;
@@ -67,8 +67,8 @@ pub use work::Work;
 pub use work_plane::{Evenness, WorkPlane};
 
 use context::Context;
-use exchange::Exchange;
 use groups::Groups;
+use interreflection::Interreflection;
 use lit_mesh::LitMesh;
 use observer::Observer;
 use start::{check_reflectances, lamps_on};
@@ -129,7 +129,7 @@ pub fn solve_with(
     direct_pass::refine(context, settings, lit, &mut observer);
     direct_pass::light_leaves(context, lit, &mut observer);
     let stages = stages::stages(context, settings, lit, stages, &mut observer)?;
-    let mut exchange = Exchange::new(context, settings, lit.mesh, lit.light, &mut observer)?;
+    let mut exchange = Interreflection::new(context, settings, lit.mesh, lit.light, &mut observer)?;
     exchange.reach_vertices(context, settings, lit, &mut observer);
     Ok((exchange.solution(mesh, optics, light), stages))
 }

@@ -1,6 +1,6 @@
 //! What a solution is, and what it tells on the way.
 
-use super::energy::Energy;
+use super::power_balance::PowerBalance;
 use super::relaxation::RelaxationStep;
 use super::stop::Stop;
 use super::work::Work;
@@ -20,7 +20,7 @@ pub struct Solution {
     /// Light on the elements that there were when reflected light was exchanged, constant over each.
     pub light: ElementLight,
     /// Where the emitted power has gone.
-    pub energy: Energy,
+    pub energy: PowerBalance,
     /// Why the solver stopped.
     pub stop: Stop,
     /// Patches that have shot, emitters included and each time counted.

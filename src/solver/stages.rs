@@ -1,7 +1,7 @@
 //! Light on its way: what a solution looks like before reflected light has all been exchanged.
 
 use super::context::Context;
-use super::exchange::Exchange;
+use super::interreflection::Interreflection;
 use super::lit_mesh::LitMesh;
 use super::observer::Observer;
 use super::solution::Solution;
@@ -31,7 +31,7 @@ pub(super) fn stages(
             continue;
         }
         let settings = Settings { max_shots: Some(most), ..settings.clone() };
-        let exchange = Exchange::new(context, &settings, mesh, light, observer)?;
+        let exchange = Interreflection::new(context, &settings, mesh, light, observer)?;
         if exchange.stop == Stop::ShotLimit {
             let (mesh, mut light) = (Mesh::clone(mesh), VertexLight::clone(light));
             exchange.spread(&mesh, &mut light);

@@ -7,7 +7,7 @@
 //! writes down its state now and then.
 
 mod fingerprint;
-mod tape;
+mod journal;
 
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ use crate::error::{Error, Result};
 use crate::file;
 use crate::settings::Settings;
 
-use tape::Tape;
+use journal::Journal;
 
 /// A state is written down when the work since the last one is this share of all work so far, so that the file
 /// grows slower the longer it gets.
@@ -39,7 +39,7 @@ pub struct Checkpoint {
 #[derive(Debug)]
 struct Keeping {
     path: PathBuf,
-    tape: Tape,
+    journal: Journal,
     max_elements: Option<usize>,
     begun: Instant,
     written: Instant,
@@ -70,8 +70,8 @@ impl Checkpoint {
     /// When there is a file at `path` already, or none can be made there.
     pub fn create(path: &Path, subject: &impl Debug, settings: &Settings) -> Result<Self> {
         let header = Header::new(subject, settings);
-        let tape = Tape::create(path, &header)?;
-        Ok(Self::of(path, tape, &header))
+        let journal = Journal::create(path, &header)?;
+        Ok(Self::of(path, journal, &header))
     }
 
     /// The file of a solution of the same subject with the same settings, to go on where that was left.
@@ -81,18 +81,18 @@ impl Checkpoint {
     /// # Errors
     /// When there is none at `path`, or it is of another scene, other settings or another version.
     pub fn resume(path: &Path, subject: &impl Debug, settings: &Settings) -> Result<Self> {
-        let mut tape = Tape::open(path).map_err(Error::io(path))?;
-        let found: Header = tape
+        let mut journal = Journal::open(path).map_err(Error::io(path))?;
+        let found: Header = journal
             .next()
             .ok_or_else(|| Error::format(path, "is not the checkpoint of a solution"))?;
         found.compare(&Header::new(subject, settings)).map_err(|m| Error::format(path, m))?;
-        Ok(Self::of(path, tape, &found))
+        Ok(Self::of(path, journal, &found))
     }
 
-    fn of(path: &Path, tape: Tape, header: &Header) -> Self {
+    fn of(path: &Path, journal: Journal, header: &Header) -> Self {
         let now = Instant::now();
         let (path, max_elements) = (path.to_owned(), header.max_elements);
-        let keeping = Some(Keeping { path, tape, max_elements, begun: now, written: now });
+        let keeping = Some(Keeping { path, journal, max_elements, begun: now, written: now });
         Self { keeping, failure: None }
     }
 
@@ -112,14 +112,14 @@ impl Checkpoint {
 
     /// What was kept next, unless there is no more.
     pub(super) fn next<R: DeserializeOwned>(&mut self) -> Option<R> {
-        self.keeping.as_mut()?.tape.next()
+        self.keeping.as_mut()?.journal.next()
     }
 
     /// Keeps something; if that fails, it is the last.
     pub(super) fn keep(&mut self, result: &impl Serialize) {
         let Some(keeping) = &mut self.keeping else { return };
         keeping.written = Instant::now();
-        if let Err(error) = keeping.tape.append(result) {
+        if let Err(error) = keeping.journal.append(result) {
             self.failure = Some(Error::io(&keeping.path)(error));
             self.keeping = None;
         }

@@ -21,8 +21,8 @@ use crate::colour::Rgb;
 use crate::error::{Error, Result};
 use crate::settings::Settings;
 
-use shooting::Held;
 pub(super) use shooting::Shooting;
+use shooting::Unshot;
 use state::last_state;
 
 impl Shooting<'_, '_> {
@@ -100,7 +100,7 @@ impl RelaxationSystem for Shooting<'_, '_> {
 
     fn remember(&mut self) {
         let (unshot, pending) = (self.unshot.clone(), self.pending.clone());
-        self.remembered = Some(Held { unshot, pending });
+        self.remembered = Some(Unshot { unshot, pending });
     }
 
     fn is_ready(&self, row: usize) -> bool {

@@ -9,11 +9,11 @@ use crate::mesh::{ElementId, Mesh, PatchId};
 use crate::refine::mean_radiosity;
 use crate::settings::Settings;
 use crate::solver::context::Context;
-use crate::solver::energy::Energy;
 use crate::solver::glare::glaring;
 use crate::solver::groups::Groups;
 use crate::solver::links::Row;
 use crate::solver::observer::Observer;
+use crate::solver::power_balance::PowerBalance;
 use crate::solver::solution::Phase;
 use crate::solver::sources::Sources;
 use crate::surface::Surfaces;
@@ -27,7 +27,7 @@ const LINKS_PER_ELEMENT: usize = 50;
 
 /// Light received and not yet shot.
 #[derive(Clone, Serialize, Deserialize)]
-pub(super) struct Held {
+pub(super) struct Unshot {
     pub(super) unshot: Vec<Rgb>,
     pub(super) pending: Vec<Rgb>,
 }
@@ -61,12 +61,12 @@ pub(in crate::solver) struct Shooting<'a, 'o> {
     /// By element: the radiosity that it releases, while its group does, W/m².
     pub(super) released: Vec<Rgb>,
     /// What groups release, if that is not what they hold.
-    pub(super) remembered: Option<Held>,
+    pub(super) remembered: Option<Unshot>,
     /// What comes straight from emitters; reflected light is not in it yet.
     pub(in crate::solver) light: ElementLight,
     /// By element: irradiance by reflected light received at that level, W/m².
     pub(in crate::solver) received: Vec<Rgb>,
-    pub(in crate::solver) energy: Energy,
+    pub(in crate::solver) energy: PowerBalance,
     pub(in crate::solver) shots: usize,
     /// Hemicubes looked through.
     pub(in crate::solver) hemicubes: usize,
@@ -131,7 +131,7 @@ impl<'a, 'o> Shooting<'a, 'o> {
             released: vec![Rgb::ZERO; mesh.elements.len()],
             remembered: None,
             received: vec![Rgb::ZERO; mesh.elements.len()],
-            energy: Energy::default(),
+            energy: PowerBalance::default(),
             shots: 0,
             hemicubes: 0,
             factors: 0,

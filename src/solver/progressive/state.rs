@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::shooting::{Held, Shooting};
+use super::shooting::{Shooting, Unshot};
 use crate::colour::Rgb;
-use crate::solver::energy::Energy;
 use crate::solver::observer::Observer;
+use crate::solver::power_balance::PowerBalance;
 use crate::solver::relaxation::Convergence;
 use crate::solver::stop::Stop;
 
@@ -15,10 +15,10 @@ pub(super) struct State {
     course: Convergence,
     /// Why it has ended, once it has.
     stop: Option<Stop>,
-    held: Held,
-    remembered: Option<Held>,
+    held: Unshot,
+    remembered: Option<Unshot>,
     received: Vec<Rgb>,
-    energy: Energy,
+    energy: PowerBalance,
     shots: usize,
     hemicubes: usize,
     factors: u64,
@@ -39,7 +39,7 @@ impl Shooting<'_, '_> {
         State {
             course: course.clone(),
             stop,
-            held: Held { unshot: self.unshot.clone(), pending: self.pending.clone() },
+            held: Unshot { unshot: self.unshot.clone(), pending: self.pending.clone() },
             remembered: self.remembered.clone(),
             received: self.received.clone(),
             energy: self.energy,

@@ -16,7 +16,7 @@ mod check;
 mod residuals;
 
 mod order;
-mod trend;
+mod stall_detector;
 
 mod run;
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::order::Order;
 use super::residuals::{RelaxationStep, RelaxationSystem};
-use super::trend::Trend;
+use super::stall_detector::StallDetector;
 use crate::error::Result;
 use crate::settings::{Method, check_omega};
 use crate::solver::stop::Stop;
@@ -55,7 +55,7 @@ impl Relaxation {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::solver) struct Convergence {
     order: Order,
-    trend: Trend,
+    trend: StallDetector,
     /// The state at the start, and after each row.
     pub(in crate::solver) history: Vec<RelaxationStep>,
 }
@@ -63,7 +63,7 @@ pub(in crate::solver) struct Convergence {
 impl Convergence {
     /// At the start.
     pub(in crate::solver) fn new(relaxation: Relaxation, system: &impl RelaxationSystem) -> Self {
-        let mut trend = Trend::new(system.rows());
+        let mut trend = StallDetector::new(system.rows());
         let start = trend.step(system, None);
         Self { order: Order::new(relaxation.method), trend, history: vec![start] }
     }

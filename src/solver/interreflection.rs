@@ -1,11 +1,11 @@
 //! Reflected light: exchanged between patches, then brought to the vertices.
 
 use super::context::Context;
-use super::energy::Energy;
 use super::gather::Gatherer;
 use super::interpolate::{REFLECTED, interpolate};
 use super::lit_mesh::LitMesh;
 use super::observer::Observer;
+use super::power_balance::PowerBalance;
 use super::progressive::Shooting;
 use super::relaxation::RelaxationStep;
 use super::solution::Solution;
@@ -25,9 +25,9 @@ use crate::settings::Settings;
 const ROUNDS: usize = 2;
 
 /// Reflected light, exchanged between the patches of a mesh as it is.
-pub(super) struct Exchange {
+pub(super) struct Interreflection {
     light: ElementLight,
-    energy: Energy,
+    energy: PowerBalance,
     pub(super) stop: Stop,
     shots: usize,
     /// Hemicubes looked through: over patches, and over vertices.
@@ -37,7 +37,7 @@ pub(super) struct Exchange {
     history: Vec<RelaxationStep>,
 }
 
-impl Exchange {
+impl Interreflection {
     pub(super) fn new(
         context: Context<'_>,
         settings: &Settings,

@@ -15,7 +15,7 @@ const PATIENCE: usize = 100;
 
 /// Keeps the books from step to step.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub(super) struct Trend {
+pub(super) struct StallDetector {
     rows: usize,
     /// Share unshot at the start.
     start: f64,
@@ -28,7 +28,7 @@ pub(super) struct Trend {
     change: f64,
 }
 
-impl Trend {
+impl StallDetector {
     pub(super) fn new(rows: usize) -> Self {
         let least = (f64::INFINITY, 0);
         Self { rows, start: 0.0, least, shots: 0, largest: 0.0, change: f64::INFINITY }

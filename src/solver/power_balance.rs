@@ -6,7 +6,7 @@ use crate::colour::Rgb;
 
 /// Powers, W per channel; what was emitted is what was absorbed, escaped or is still unshot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Energy {
+pub struct PowerBalance {
     /// Sent out by emitters; of light from infinitely far, what arrives in the scene.
     pub emitted: Rgb,
     /// Absorbed by the fronts of surfaces.
@@ -19,7 +19,7 @@ pub struct Energy {
     pub unshot: Rgb,
 }
 
-impl Energy {
+impl PowerBalance {
     /// What is missing from the balance, as a share of the emitted power; negative if there is too much.
     pub fn imbalance(&self) -> f64 {
         let accounted = self.absorbed + self.on_backs + self.escaped + self.unshot;

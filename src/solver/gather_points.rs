@@ -12,7 +12,7 @@ use crate::mesh::{Mesh, VertexId};
 use crate::surface::Weld;
 use crate::visibility::SurfacePoint;
 
-/// How high over facets a lookout is, in tolerances: well above ridges that it is a hair away from.
+/// How high over facets a gathering point is, in tolerances: well above ridges that it is a hair away from.
 const LIFT: f64 = 50.0;
 
 /// Vertices nearer to each other than this many tolerances are at one place.
@@ -23,7 +23,7 @@ const GRAZING: f64 = 0.1;
 
 /// A place to gather light at, once for all of some vertices.
 #[derive(Clone, Debug)]
-pub(super) struct Lookout {
+pub(super) struct GatherPoint {
     /// In their order; all of one group of facets, or a single one.
     pub(super) vertices: SmallVec<[VertexId; 1]>,
     pub(super) eye: DVec3,
@@ -31,15 +31,15 @@ pub(super) struct Lookout {
     pub(super) normal: DVec3,
 }
 
-/// The lookouts of vertices: those of facets that are in one group and `near` each other, m, share one.
-pub(super) fn lookouts(
+/// The gathering points of vertices: those of facets that are in one group and `near` each other, m, share one.
+pub(super) fn gather_points(
     mesh: &Mesh,
     groups: &Groups,
     near: f64,
     vertices: &[VertexId],
-) -> Vec<Lookout> {
+) -> Vec<GatherPoint> {
     let sets = neighbours(mesh, groups, near.max(ONE_PLACE * mesh.tolerance()), vertices);
-    sets.into_iter().map(|set| Lookout::new(mesh, set)).collect()
+    sets.into_iter().map(|set| GatherPoint::new(mesh, set)).collect()
 }
 
 /// Vertices, those of facets together that are in one group and `near` each other, m.
@@ -66,7 +66,7 @@ pub(super) fn neighbours(
     sets
 }
 
-impl Lookout {
+impl GatherPoint {
     fn new(mesh: &Mesh, vertices: SmallVec<[VertexId; 1]>) -> Self {
         let normal_of = |v: VertexId| mesh.plane(mesh[v].patch).normal;
         if let &[vertex] = vertices.as_slice() {
@@ -85,7 +85,7 @@ impl Lookout {
 }
 
 /// Light from a polygon, all or part of it.
-pub(super) struct Arrival<'a> {
+pub(super) struct IncidentLight<'a> {
     /// Irradiance at the place that it was gathered for, W/m².
     pub(super) light: Rgb,
     pub(super) corners: &'a [DVec3],
@@ -97,14 +97,14 @@ pub(super) struct Arrival<'a> {
 ///
 /// [Arvo 1994]: https://doi.org/10.1145/192161.192250
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct LightField {
+pub(super) struct LightVector {
     /// By channel, W/m².
     vectors: [DVec3; 3],
 }
 
-impl LightField {
+impl LightVector {
     /// Adds light that arrives at a point of a surface.
-    pub(super) fn add(&mut self, at: SurfacePoint, arrival: &Arrival<'_>) {
+    pub(super) fn add(&mut self, at: SurfacePoint, arrival: &IncidentLight<'_>) {
         let SurfacePoint { position: place, normal } = at;
         let towards = vector_to_polygon(place, normal, arrival.corners).normalize_or(normal);
         let towards = towards / towards.dot(normal).max(GRAZING);

@@ -20,13 +20,13 @@ const MAGIC: &[u8; 16] = b"radiosity work 2";
 const HEAD: usize = 12;
 
 #[derive(Debug)]
-pub(super) struct Tape {
+pub(super) struct Journal {
     file: BufReader<File>,
     /// Where the last good record ends, until the end of the file is reached.
     reading: Option<u64>,
 }
 
-impl Tape {
+impl Journal {
     /// A new file that begins with a record; there must not be one yet.
     pub(super) fn create(path: &Path, first: &impl Serialize) -> Result<Self> {
         if path.exists() {
@@ -42,7 +42,7 @@ impl Tape {
         Ok(Self { file: BufReader::new(file), reading: None })
     }
 
-    /// An existing file, at its first record; one that is no tape has none.
+    /// An existing file, at its first record; one that is no journal has none.
     pub(super) fn open(path: &Path) -> io::Result<Self> {
         let mut file = BufReader::new(OpenOptions::new().read(true).write(true).open(path)?);
         let mut magic = [0; MAGIC.len()];
@@ -99,41 +99,41 @@ mod tests {
     use super::*;
 
     fn read_all(path: &Path) -> Vec<Vec<u64>> {
-        let mut tape = Tape::open(path).unwrap();
-        std::iter::from_fn(|| tape.next()).collect()
+        let mut journal = Journal::open(path).unwrap();
+        std::iter::from_fn(|| journal.next()).collect()
     }
 
     #[test]
     fn a_tape_cut_anywhere_keeps_its_whole_records_and_can_be_written_on() {
         let directory = tempfile::tempdir().unwrap();
-        let path = directory.path().join("tape");
+        let path = directory.path().join("journal");
         let records: Vec<Vec<u64>> = (0..5).map(|n| vec![n * 1_000_003; n as usize]).collect();
-        let mut tape = Tape::create(&path, &records[0]).unwrap();
-        records[1..].iter().for_each(|record| tape.append(record).unwrap());
-        drop(tape);
+        let mut journal = Journal::create(&path, &records[0]).unwrap();
+        records[1..].iter().for_each(|record| journal.append(record).unwrap());
+        drop(journal);
         let whole = std::fs::read(&path).unwrap();
         assert_eq!(read_all(&path), records);
         for length in 0..whole.len() {
             std::fs::write(&path, &whole[..length]).unwrap();
-            let mut tape = Tape::open(&path).unwrap();
-            let found: Vec<Vec<u64>> = std::iter::from_fn(|| tape.next()).collect();
+            let mut journal = Journal::open(&path).unwrap();
+            let found: Vec<Vec<u64>> = std::iter::from_fn(|| journal.next()).collect();
             assert_eq!(found, records[..found.len()]);
             if length >= MAGIC.len() {
-                tape.append(&vec![7_u64]).unwrap();
-                drop(tape);
+                journal.append(&vec![7_u64]).unwrap();
+                drop(journal);
                 assert_eq!(read_all(&path), [&found[..], &[vec![7]]].concat());
             }
         }
-        assert!(Tape::create(&path, &records[0]).is_err(), "nothing is overwritten");
+        assert!(Journal::create(&path, &records[0]).is_err(), "nothing is overwritten");
     }
 
     #[test]
     fn a_changed_bit_ends_the_tape() {
         let directory = tempfile::tempdir().unwrap();
-        let path = directory.path().join("tape");
-        let mut tape = Tape::create(&path, &vec![1_u64]).unwrap();
-        tape.append(&vec![2_u64; 9]).unwrap();
-        drop(tape);
+        let path = directory.path().join("journal");
+        let mut journal = Journal::create(&path, &vec![1_u64]).unwrap();
+        journal.append(&vec![2_u64; 9]).unwrap();
+        drop(journal);
         let mut bytes = std::fs::read(&path).unwrap();
         *bytes.last_mut().unwrap() ^= 16;
         std::fs::write(&path, &bytes).unwrap();

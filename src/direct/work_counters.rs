@@ -1,15 +1,15 @@
-//! How much work direct light was, whichever threads did it.
+//! Thread-safe counters of evaluations of direct light and of shadow rays.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Sums that many threads add to; order does not matter to them.
 #[derive(Debug, Default)]
-pub(super) struct Tally {
+pub(super) struct WorkCounters {
     evaluations: AtomicU64,
     rays: AtomicU64,
 }
 
-impl Tally {
+impl WorkCounters {
     pub(super) fn add(&self, evaluations: u64, rays: u64) {
         if evaluations > 0 {
             self.evaluations.fetch_add(evaluations, Ordering::Relaxed);
@@ -34,7 +34,7 @@ impl Tally {
     }
 }
 
-impl Clone for Tally {
+impl Clone for WorkCounters {
     /// Begins where the other is.
     fn clone(&self) -> Self {
         let tally = Self::default();
