@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use smallvec::SmallVec;
 
 use super::context::Context;
-use super::sources::quarters;
+use super::sources::{HOT, capped_power, quarters};
 use crate::colour::{Rgb, strength};
 use crate::direct::Outlook;
 use crate::light::{ElementLight, VertexLight, mean};
@@ -28,10 +28,6 @@ const LEVELS: [u32; 2] = [4, 9];
 
 /// Parts are divided until their power changes by less than this share of all that arrives.
 pub(super) const ERROR: f64 = 2e-5;
-
-/// Of what arrives on places that are this many times as bright as the mean, that much counts in it: of a lamp that faces
-/// a ceiling closely, what lights the room is hardly more than an error of what is shut in.
-const HOT: f64 = 8.0;
 
 /// The least share of all that arrives that counts.
 const LEAST: f64 = 0.1;
@@ -88,14 +84,13 @@ pub(super) fn steep_means(
     found.into_iter().flatten().collect()
 }
 
-/// What arrives on leaves, W, without most of what is shut in.
+/// What arrives on leaves, W, without most of what is shut in: of a lamp that faces a ceiling closely, what lights the
+/// room is hardly more than an error of that.
 fn counting_power(mesh: &Mesh, vertices: &VertexLight, leaves: &[ElementId]) -> f64 {
     let area: f64 = leaves.iter().map(|&leaf| mesh[leaf].area).sum();
     let capped = |most: f64| {
-        let power = |&leaf: &ElementId| {
-            strength(vertices.mean_direct(mesh, leaf)).min(most) * mesh[leaf].area
-        };
-        leaves.iter().map(power).sum::<f64>()
+        let light = |leaf| vertices.mean_direct(mesh, leaf);
+        capped_power(mesh, leaves.iter().copied(), most, light)
     };
     let all = capped(f64::INFINITY);
     capped(HOT * all / area.max(f64::MIN_POSITIVE)).max(LEAST * all)

@@ -269,8 +269,11 @@ impl LevelJudge<'_, '_> {
         let shown = shown(context.optics, light, &mesh[element]);
         let sample = Sample::new(mesh, element, &shown);
         let lines = &lines[mesh[element].patch.index()];
-        let along_line =
-            cut(&mesh.outline(element), lines, oracle.allowed(&sample), mesh.tolerance());
+        let along_line = if lines.is_empty() {
+            None
+        } else {
+            cut(&mesh.outline(element), lines, oracle.allowed(&sample), mesh.tolerance())
+        };
         let is_off = |allowed| self.is_off(element, allowed);
         along_line.or_else(|| oracle.judge(&sample, middle, &shown, is_off))
     }

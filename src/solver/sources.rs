@@ -9,13 +9,23 @@ use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
 use crate::refine::mean_radiosity;
 
 /// Radiosity beyond this many times the mean of the scene counts as that much in it.
-const HOT: f64 = 8.0;
+pub(super) const HOT: f64 = 8.0;
 
 /// The mean is settled after so many rounds, whatever is hot.
 const ROUNDS: usize = 8;
 
 /// The mean counts as at least this share of what direct light lets expect: to look for less would take time without end.
 const LEAST: f64 = 1.0 / 32.0;
+
+/// What leaves have of a `light`, W, none counting as brighter than `most`, W/m².
+pub(super) fn capped_power(
+    mesh: &Mesh,
+    leaves: impl Iterator<Item = ElementId>,
+    most: f64,
+    light: impl Fn(ElementId) -> Rgb,
+) -> f64 {
+    leaves.map(|leaf| strength(light(leaf)).min(most) * mesh[leaf].area).sum()
+}
 
 /// Mean radiosity of a scene whose vertices are lit, W/m², by which errors are measured.
 pub(crate) fn level(mesh: &Mesh, optics: &Optics, light: &VertexLight) -> f64 {
@@ -136,8 +146,8 @@ impl<'a> Sources<'a> {
     pub(super) fn level(&self, mesh: &Mesh, light: &VertexLight) -> f64 {
         let area: f64 = mesh.leaves().map(|leaf| mesh[leaf].area).sum();
         let capped = |most: f64| {
-            let light = |leaf: ElementId| strength(self.mean(leaf)).min(most) * mesh[leaf].area;
-            mesh.leaves().map(light).sum::<f64>() / area.max(f64::MIN_POSITIVE)
+            let all = capped_power(mesh, mesh.leaves(), most, |leaf| self.mean(leaf));
+            all / area.max(f64::MIN_POSITIVE)
         };
         let found = (0..ROUNDS).fold(capped(f64::INFINITY), |level, _| capped(HOT * level));
         let expected = mean_radiosity(mesh, self.optics, light);
