@@ -18,8 +18,8 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
 use obvhs::ray::{Ray, RayHit};
 use radiosity::form_factor::rays::{Rays, Sphere};
+use radiosity::geometry::hierarchy::hierarchy;
 use radiosity::mesh::Mesh;
-use radiosity::visibility::hierarchy::hierarchy;
 use radiosity::visibility::{PatchHierarchy, SurfacePoint};
 use radiosity::{Length, Settings, surfaces_of};
 

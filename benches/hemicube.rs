@@ -154,6 +154,6 @@ fn eyes(mesh: &Mesh) -> Vec<SurfacePoint> {
 }
 
 fn corners(room: &Room, leaf: ElementId) -> Vec<DVec3> {
-    let plane = &room.surfaces.list[room.mesh.surface_of(leaf)].plane;
+    let plane = &room.surfaces[room.mesh.surface_of(leaf)].plane;
     room.mesh.outline(leaf).iter().map(|&position| plane.lift(position)).collect()
 }

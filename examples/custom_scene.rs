@@ -7,7 +7,7 @@ use radiosity::colour::Rgb;
 use radiosity::export::{self, Stamp};
 use radiosity::glam::DVec3;
 use radiosity::render::{self, Display, RenderOptions};
-use radiosity::scene::{Face, Material, Scene};
+use radiosity::scene::{Face, Material, MaterialId, Scene};
 use radiosity::tone::{Exposure, exposure_scale};
 use radiosity::{Settings, reconstruct, solve, surfaces_of};
 
@@ -36,14 +36,13 @@ fn main() -> radiosity::Result<()> {
 }
 
 /// Adds a material that reflects `reflectance` and emits the radiance `emission`, W/(m² sr).
-fn material(scene: &mut Scene, name: &str, reflectance: Rgb, emission: Rgb) -> u32 {
+fn material(scene: &mut Scene, name: &str, reflectance: Rgb, emission: Rgb) -> MaterialId {
     let name = name.to_owned();
-    scene.materials.push(Material { name, reflectance, emission, ..Material::default() });
-    scene.materials.len() as u32 - 1
+    scene.add_material(Material { name, reflectance, emission, ..Material::default() })
 }
 
 /// Adds a parallelogram that faces the side from which `sides` turn counter-clockwise.
-fn parallelogram(scene: &mut Scene, material: u32, corner: DVec3, sides: [DVec3; 2]) {
+fn parallelogram(scene: &mut Scene, material: MaterialId, corner: DVec3, sides: [DVec3; 2]) {
     let first = scene.positions.len() as u32;
     let [a, b] = sides;
     scene.positions.extend([corner, corner + a, corner + a + b, corner + b]);

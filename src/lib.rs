@@ -65,6 +65,8 @@
 pub mod colour;
 pub mod error;
 mod file;
+pub mod geometry;
+mod ids;
 pub mod settings;
 mod watch;
 

@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 /// use radiosity::Settings;
 /// let settings = Settings { tolerance: 0.02, ..Settings::high() };
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
     /// Largest error of interpolation across an element, as a share of the radiosity around it
     /// (0.001..=1; default 0.02). Smaller means more elements.
@@ -207,7 +207,7 @@ fn bearable(name: &'static str, area: f64, size: f64, most: f64) -> Result<()> {
 }
 
 /// A length that may depend on the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Length {
     /// This many metres.
     Metres(f64),

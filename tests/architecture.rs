@@ -5,12 +5,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The library's modules in flow order; those in one entry do not use each other.
-const FLOW: [&[&str]; 21] = [
+const FLOW: [&[&str]; 23] = [
     &["colour"],
     &["error"],
     &["file"],
+    &["ids"],
     &["settings"],
     &["watch"],
+    &["geometry"],
     &["scene"],
     &["surface"],
     &["mesh"],

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 
 use radiosity::colour::Rgb;
 use radiosity::glam::{DVec3, Vec3};
-use radiosity::scene::{Face, Light, Material, NamedLight};
+use radiosity::scene::{Face, Light, Material, MaterialId, NamedLight};
 use radiosity::{Error, Scene, Settings, compare, faces_of, load, solve, surfaces_of};
 
 /// A lamp over a floor, each a square with positions of its own.
@@ -24,7 +24,7 @@ fn lamp_over_floor() -> Scene {
     scene.positions = [square(0.0, up), square(1.0, down)].concat();
     let face = |material: u32| Face {
         vertices: (4 * material..4 * material + 4).collect(),
-        material,
+        material: MaterialId(material),
         ..Face::default()
     };
     scene.faces = vec![face(0), face(1)];
@@ -47,7 +47,7 @@ const UNSOUND: [Flaw; 14] = [
     (|scene| scene.positions[7].y = f64::INFINITY, "position 7"),
     (|scene| scene.faces[1].vertices[2] = 99, "face 1 has a corner at position 99, of 8"),
     (|scene| scene.faces[0].vertices.truncate(2), "face 0 has 2 corners"),
-    (|scene| scene.faces[1].material = 2, "face 1 is of material 2, of 2"),
+    (|scene| scene.faces[1].material = MaterialId(2), "face 1 is of material 2, of 2"),
     (|scene| scene.faces[0].normals.push(Vec3::Y), "not as many normals"),
     (|scene| scene.faces[0].tints = [Vec3::NAN; 4].into_iter().collect(), "face 0 has a normal"),
     (|scene| scene.materials[0].texture = Some(3), "\"floor\" has a texture beyond the 0"),

@@ -5,8 +5,8 @@ mod common;
 use common::{Block, Stage, coarse, corners, furnished_room, mesh_of, radiosities, shipped, solve};
 use glam::{DVec2, DVec3};
 use radiosity::direct::Lamps;
+use radiosity::geometry::polygon::edges;
 use radiosity::mesh::Mesh;
-use radiosity::surface::polygon::edges;
 use radiosity::visibility::Occluders;
 use radiosity::{Length, Scene, Settings, TriMesh, surfaces_of};
 
@@ -133,7 +133,7 @@ fn is_quadtree(settings: &Settings) -> bool {
     let mesh = solve(&surfaces, settings).mesh;
     let outlines = mesh.leaves().map(|leaf| (mesh.surface_of(leaf), mesh.outline(leaf)));
     let along = |[a, b]: [DVec2; 2]| (b - a).abs().min_element() < 1e-9;
-    let mut floor = outlines.filter(|&(surface, _)| surfaces.list[surface].plane.origin.y == 0.0);
+    let mut floor = outlines.filter(|&(surface, _)| surfaces[surface].plane.origin.y == 0.0);
     floor.all(|(_, outline)| outline.len() == 4 && edges(&outline).all(along))
 }
 

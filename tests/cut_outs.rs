@@ -7,8 +7,8 @@ use std::f64::consts::PI;
 use common::{Stage, coarse, mesh_of, solve};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
-use radiosity::scene::{Sampler, Wrap};
-use radiosity::surface::polygon::contains;
+use radiosity::geometry::polygon::contains;
+use radiosity::scene::{MaterialId, Sampler, Wrap};
 use radiosity::{Scene, Settings, surfaces_of};
 
 /// Where the corners of a picture lie on a card: counter-clockwise, from the bottom left.
@@ -17,7 +17,7 @@ const WHOLE: [DVec2; 4] = [DVec2::Y, DVec2::ONE, DVec2::X, DVec2::ZERO];
 const STEPS: Sampler = Sampler { wrap: [Wrap::Repeat; 2], nearest: true };
 
 /// A horizontal card that faces down, of `half` its width around (0, height, 0).
-fn card(stage: &mut Stage, material: u32, [half, height]: [f64; 2], uvs: [DVec2; 4]) {
+fn card(stage: &mut Stage, material: MaterialId, [half, height]: [f64; 2], uvs: [DVec2; 4]) {
     let corners = [(-half, half), (-half, -half), (half, -half), (half, half)];
     stage.polygon(material, &corners.map(|(x, z)| DVec3::new(x, height, z))).uvs =
         uvs.as_slice().into();
@@ -181,7 +181,7 @@ fn a_furnace_with_leaves_glows_alike_everywhere() {
     let glowing = stage.material(reflectance, 1.0 / PI);
     stage.room(glowing, DVec3::splat(-1.0), DVec3::ONE);
     let leaf = stage.cut_out([reflectance, 1.0 / PI], (64, Sampler::default()), fingers);
-    stage.scene.materials[leaf as usize].double_sided = true;
+    stage.scene.materials[leaf.index()].double_sided = true;
     card(&mut stage, leaf, [0.6, 0.1], WHOLE);
     let mesh = mesh_of(&stage.scene.build().unwrap(), &coarse());
     for (radiosity, place) in mesh.radiosity.iter().zip(&mesh.positions) {

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use common::{coarse, mesh_of, shipped};
-use radiosity::solver::{Checkpoint, Stop};
+use radiosity::solver::{Cancellation, Checkpoint, Stop};
 use radiosity::{
     Length, Plan, Settings, Solution, Surfaces, TriMesh, reconstruct, solve_with, surfaces_of,
 };
@@ -57,7 +57,11 @@ fn solve_for(
     let mut told = 0;
     let observe = |_: &radiosity::solver::Progress| {
         told += 1;
-        if told > patience { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if told > patience {
+            ControlFlow::Break(Cancellation::Caller)
+        } else {
+            ControlFlow::Continue(())
+        }
     };
     let plan = Plan { checkpoint: Some(&mut checkpoint), ..Plan::default() };
     let solution = solve_with(surfaces, settings, plan, observe)?.0;

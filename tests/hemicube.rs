@@ -109,7 +109,7 @@ fn cells_go_to_the_elements_that_they_see() {
                 assert_eq!(before, None, "leaf {leaf} is there twice");
             }
             for leaf in mesh.leaves() {
-                let plane = &surfaces.list[mesh.surface_of(leaf)].plane;
+                let plane = &surfaces[mesh.surface_of(leaf)].plane;
                 let corners: Vec<DVec3> =
                     mesh.outline(leaf).iter().map(|&p| plane.lift(p)).collect();
                 let exact = point_to_polygon(eye, *normal, &corners);

@@ -10,6 +10,7 @@ use common::{
     radiosities, shipped, solve,
 };
 use glam::{DMat3, DVec3};
+use radiosity::scene::MaterialId;
 use radiosity::{Length, Scene, Settings, TriMesh, surfaces_of};
 
 const ROOM: (DVec3, DVec3) = (DVec3::ZERO, DVec3::new(1.0, 1.5, 2.0));
@@ -67,7 +68,7 @@ fn furnace_glows_alike_around_a_box_that_stands_in_it() {
 #[test]
 fn furnace_glows_alike_around_a_ball_of_many_facets() {
     let mut stage = Stage { scene: furnace(0.6, None) };
-    stage.ball(0, DVec3::new(0.5, 0.6, 1.1), 0.3);
+    stage.ball(MaterialId(0), DVec3::new(0.5, 0.6, 1.1), 0.3);
     let (error, place) = worst_glow(&stage.scene, 0.6, |_| true);
     assert!(error <= 0.015, "off by {error} at {place}");
 }
@@ -224,7 +225,7 @@ fn no_light_inside_a_closed_solid() {
 }
 
 /// Two rooms of 2 × 2 × 2 m under one ceiling, on one floor; a lamp in the first, and no wall between yet.
-fn rooms() -> (Stage, u32) {
+fn rooms() -> (Stage, MaterialId) {
     let mut stage = Stage::default();
     let (white, light) = (stage.material(0.7, 0.0), stage.material(0.0, 10.0));
     stage.room(white, DVec3::ZERO, DVec3::new(4.1, 2.0, 2.0));

@@ -7,10 +7,10 @@ use std::f64::consts::TAU;
 use common::{Block, Stage, area_of, coarse, furnished_room, shipped, solve};
 use glam::{DAffine3, DVec2, DVec3};
 use proptest::prelude::*;
+use radiosity::geometry::cut::{Cuts, convex_pieces};
+use radiosity::geometry::polygon::{Ring, Segment, area, edges};
 use radiosity::mesh::{ElementId, Mesh, Reason, Split};
 use radiosity::surface::Contact;
-use radiosity::surface::cut::{Cuts, convex_pieces};
-use radiosity::surface::polygon::{Ring, Segment, area, edges};
 use radiosity::{Length, Scene, Settings, Surfaces, surfaces_of};
 
 /// A star-shaped ring about `centre`: counter-clockwise, in general not convex.
@@ -228,7 +228,7 @@ fn assert_no_straddling(scene: &Scene) {
     mesh.validate();
     for leaf in mesh.leaves() {
         let outline = mesh.outline(leaf);
-        for &Contact { segment: line, .. } in &surfaces.list[mesh.surface_of(leaf)].contacts {
+        for &Contact { segment: line, .. } in &surfaces[mesh.surface_of(leaf)].contacts {
             let inside = length_inside(&outline, line, 10.0 * surfaces.tolerance);
             assert!(inside < 1e-4 * surfaces.extent, "{inside} m of {line:?} in {outline:?}");
         }

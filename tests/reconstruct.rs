@@ -145,7 +145,7 @@ fn cut_outs_come_out_whole_and_without_cracks() {
         let sampler = Sampler { nearest, ..Sampler::default() };
         let ring = |at: DVec2| 0.5 + 8.0 * (0.1 - (at.distance(DVec2::splat(0.5)) - 0.3).abs());
         let leaf = stage.cut_out([0.6, 0.0], (24, sampler), ring);
-        stage.scene.materials[leaf as usize].double_sided = true;
+        stage.scene.materials[leaf.index()].double_sided = true;
         // One lies on the floor, one stands on it and leans on a wall.
         for height in [0.0, 0.8] {
             let corners =

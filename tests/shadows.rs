@@ -7,11 +7,12 @@ use glam::DVec3;
 use proptest::prelude::*;
 use radiosity::direct::{Lamps, PatchLight};
 use radiosity::mesh::{Crossing, ElementId, Mesh, PatchId, Reason, Split, Vertex};
+use radiosity::scene::MaterialId;
 use radiosity::visibility::Occluders;
 use radiosity::{Length, Scene, Settings, Surfaces, surfaces_of};
 
 /// A floor of 4 × 4 m under a square lamp of 0.2 m at 2 m, with something between.
-fn floor_with(add: impl FnOnce(&mut Stage, u32)) -> Surfaces {
+fn floor_with(add: impl FnOnce(&mut Stage, MaterialId)) -> Surfaces {
     let mut stage = Stage::default();
     let [grey, black, light] =
         [(0.5, 0.0), (0.0, 0.0), (0.0, 100.0)].map(|(rho, l)| stage.material(rho, l));
@@ -23,7 +24,7 @@ fn floor_with(add: impl FnOnce(&mut Stage, u32)) -> Surfaces {
 }
 
 /// A black square of 0.4 m at half the lamp's height.
-fn square(stage: &mut Stage, black: u32) {
+fn square(stage: &mut Stage, black: MaterialId) {
     let corners = [(-0.2, -0.2), (0.2, -0.2), (0.2, 0.2), (-0.2, 0.2)];
     stage.polygon(black, &corners.map(|(x, z)| DVec3::new(x, 1.0, z)));
 }
@@ -53,7 +54,7 @@ fn elements_are_cut_along_the_border_of_a_sharp_shadow() {
     // Cuts end at sixteenths of edges.
     let near_umbra = |settings: &Settings| {
         let mesh = solve(&surfaces, settings).mesh;
-        let place = |v: &Vertex| surfaces.list[v.surface as usize].plane.lift(v.position);
+        let place = |v: &Vertex| surfaces[v.surface].plane.lift(v.position);
         let is_near = |p: &DVec3| p.y == 0.0 && p.z.abs() < 0.25 && (p.x.abs() - 0.3).abs() < 0.004;
         mesh.vertices.iter().map(place).filter(is_near).count()
     };
@@ -64,7 +65,7 @@ fn elements_are_cut_along_the_border_of_a_sharp_shadow() {
 
 #[test]
 fn the_shadow_of_a_wire_is_not_overlooked() {
-    let wire = |stage: &mut Stage, black: u32| {
+    let wire = |stage: &mut Stage, black: MaterialId| {
         let size = DVec3::new(0.004, 0.6, 0.004);
         stage.block(black, Block { base: DVec3::new(0.613, 0.0, 0.271), size, turn: 0.3 });
     };

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use common::{assert_sane, mean_radiosity, shipped};
 use radiosity::light::Direct;
 use radiosity::mesh::VertexId;
-use radiosity::solver::{Phase, Progress, Stop};
+use radiosity::solver::{Cancellation, Phase, Progress, Stop};
 use radiosity::{Settings, Solution, Surfaces, reconstruct, solve, surfaces_of};
 
 /// When the work is ended.
@@ -28,10 +28,10 @@ fn settings() -> Settings {
 fn ended_at(surfaces: &Surfaces, (phase, done): (Phase, f64)) -> Solution {
     let solution = solve(surfaces, &settings(), |progress: &Progress| {
         let is_enough = (progress.phase, progress.done) >= (phase, done);
-        if is_enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if is_enough { ControlFlow::Break(Cancellation::Caller) } else { ControlFlow::Continue(()) }
     });
     let solution = solution.unwrap();
-    assert_eq!(solution.stop, Stop::Cancelled);
+    assert_eq!(solution.stop, Stop::Cancelled(Cancellation::Caller));
     solution
 }
 

@@ -3,9 +3,10 @@
 use glam::{DVec2, DVec3};
 use radiosity::colour::Rgb;
 use radiosity::direct::Lamps;
+use radiosity::geometry::polygon::edges;
 use radiosity::light::Optics;
 use radiosity::mesh::{ElementId, Mesh};
-use radiosity::surface::polygon::edges;
+use radiosity::surface::SurfaceId;
 use radiosity::visibility::Occluders;
 use radiosity::{Settings, Surfaces, TriMesh};
 use rayon::prelude::*;
@@ -68,7 +69,7 @@ impl Truth {
             .par_iter()
             .filter(|&&leaf| is_seen(surfaces, gauge.mesh.surface_of(leaf)))
             .filter_map(|&leaf| {
-                let surface = &surfaces.list[gauge.mesh.surface_of(leaf)];
+                let surface = &surfaces[gauge.mesh.surface_of(leaf)];
                 let place = gauge.mesh.centre(leaf, &surface.plane);
                 let at = (place, surface.plane.normal);
                 let reflected = indirect.at(at, |vertex| fine.irradiance[vertex].indirect)?;
@@ -109,8 +110,8 @@ impl Truth {
 }
 
 /// Whether a surface shows what a mesh computes: it reflects, and does not outshine that.
-pub(crate) fn is_seen(surfaces: &Surfaces, surface: usize) -> bool {
-    let surface = &surfaces.list[surface];
+pub(crate) fn is_seen(surfaces: &Surfaces, surface: SurfaceId) -> bool {
+    let surface = &surfaces[surface];
     surface.reflectance.max_element() > 0.0 && !surface.is_emitter()
 }
 
@@ -147,7 +148,7 @@ impl Gauge<'_> {
         let step = 0.2 * self.mesh[leaf].area / longest;
         let visible =
             |offset: DVec3| self.lamps.shine(&self.occluders, place + offset, normal).visible();
-        let plane = &self.surfaces.list[self.mesh.surface_of(leaf)].plane;
+        let plane = &self.surfaces[self.mesh.surface_of(leaf)].plane;
         let along = |axis: DVec3| (visible(axis * step) - visible(axis * -step)) / (2.0 * step);
         DVec2::new(along(plane.u), along(plane.v))
     }

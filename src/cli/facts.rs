@@ -120,7 +120,7 @@ struct Totals {
 fn totals(materials: usize, surfaces: &Surfaces, mesh: &Mesh) -> Vec<Totals> {
     let mut totals = vec![Totals::default(); materials];
     for (patch, exitance) in mesh.patches.iter().zip(Optics::new(surfaces, mesh).exitance) {
-        let own = &mut totals[surfaces.list[patch.surface as usize].material as usize];
+        let own = &mut totals[surfaces[patch.surface].material.index()];
         own.area += patch.area;
         own.power += exitance * patch.area;
     }

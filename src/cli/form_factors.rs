@@ -7,6 +7,7 @@ use glam::DVec3;
 use radiosity::export::{FactorPatch, FactorTable, check_writable_factors, save_factors};
 use radiosity::form_factor::{self, Assembled, assemble, factors_at};
 use radiosity::mesh::Mesh;
+use radiosity::surface::Surface;
 use radiosity::visibility::{Occluders, SurfacePoint};
 use radiosity::{Error, Length, Settings, Surfaces, faces_of};
 use serde::Serialize;
@@ -120,7 +121,7 @@ impl FormFactorsCommand {
         let assembled = assemble(&mesh.patches, &occluders, method, |done| {
             interrupt.worth_writing();
             meter.advance("form factors", done);
-            interrupt.flow()
+            interrupt.flow().map_break(drop)
         });
         let at = self.at.map(|(position, normal)| {
             factors_at(&mesh.patches, &occluders, method, SurfacePoint::new(position, normal))
@@ -238,17 +239,14 @@ struct Whole {
 impl Whole {
     fn new(surfaces: &Surfaces, mesh: &Mesh, settings: &Settings) -> Self {
         let size = settings.patch_length(surfaces.extent);
-        let is_whole = |surface: u32| {
-            let (low, high) = surfaces.list[surface as usize].bounds();
-            low.distance(high) <= size
-        };
+        let is_whole = |surface: &Surface| surface.extent() <= size;
         let mut whole = Self { patches: Vec::new(), group: Vec::new() };
         for (k, piece) in mesh.patches.iter().enumerate() {
-            let surface = &surfaces.list[piece.surface as usize];
+            let surface = &surfaces[piece.surface];
             let centre = mesh.centre(piece.root, &surface.plane);
             let continues = k > 0 && mesh.patches[k - 1].surface == piece.surface;
             match whole.patches.last_mut() {
-                Some(patch) if continues && is_whole(piece.surface) => {
+                Some(patch) if continues && is_whole(surface) => {
                     let area = patch.area + piece.area;
                     let mean = DVec3::from(patch.centre).lerp(centre, piece.area / area);
                     (patch.area, patch.centre) = (area, mean.to_array());
@@ -259,7 +257,7 @@ impl Whole {
                         .get(surface.object as usize)
                         .cloned()
                         .unwrap_or_default(),
-                    material: surfaces.materials[surface.material as usize].name.clone(),
+                    material: surfaces[surface.material].name.clone(),
                     area: piece.area,
                     centre: centre.to_array(),
                     normal: piece.normal.to_array(),

@@ -1,15 +1,17 @@
 //! The work of `radiosity solve` itself: with its checkpoint, and with lights kept apart if they are to be.
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::Args;
 use radiosity::reconstruct::reconstruct_by_light;
-use radiosity::solver::{Checkpoint, Progress};
+use radiosity::solver::{Cancellation, Checkpoint, Progress};
 use radiosity::surface::LightGroup;
 use radiosity::{
     Error, Plan, Result, ScaledLight, Settings, Solution, Surfaces, TriMesh, reconstruct,
     solve_by_light, solve_with,
 };
+use serde::Serialize;
 
 use super::interrupt::Interrupt;
 use super::meter::Meter;
@@ -107,12 +109,12 @@ impl Lighting<'_> {
     /// Does `work` on a `subject` with its checkpoint.
     fn kept<R>(
         self,
-        subject: &impl std::fmt::Debug,
+        subject: &impl Serialize,
         interrupt: &Interrupt,
         meter: &mut Meter,
         work: impl FnOnce(
             &mut Checkpoint,
-            &mut dyn FnMut(&Progress) -> std::ops::ControlFlow<()>,
+            &mut dyn FnMut(&Progress) -> ControlFlow<Cancellation>,
         ) -> Result<R>,
     ) -> Result<R> {
         let (mut checkpoint, goes_on) = self.checkpoint.open(subject, self.settings)?;

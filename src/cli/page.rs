@@ -91,7 +91,7 @@ impl PageOptions {
         let drawing = options.drawing(View::Light, lights);
         let mut picture = render_solved(subject, account.camera, &drawing, |done| {
             meter.advance("page", done);
-            interrupt.flow()
+            interrupt.flow().map_break(drop)
         });
         picture.unfinished |= !interrupt.is_whole();
         let still = png(&picture, &account.display);

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use radiosity::colour::{LUMENS_PER_WATT, Rgb, luminance};
 use radiosity::mesh::Divided;
 use radiosity::reconstruct::{Angles, TriMesh};
-use radiosity::solver::{PowerBalance, Stop};
+use radiosity::solver::{Cancellation, PowerBalance, Stop};
 use radiosity::{Solution, Surfaces};
 use serde::Serialize;
 
@@ -19,7 +19,7 @@ use super::record::SettingsRecord;
 pub(crate) struct Summary {
     /// False if the solver was stopped before it was done.
     pub(crate) finished: bool,
-    /// `converged`, `shot limit` or `interrupted`.
+    /// `converged`, `unchanged`, `shot limit`, `time limit`, `interrupted` or `terminated`.
     pub(crate) stop: &'static str,
     pub(crate) surfaces: usize,
     pub(crate) patches: usize,
@@ -79,7 +79,10 @@ impl Summary {
                 Stop::Converged => "converged",
                 Stop::Unchanged => "unchanged",
                 Stop::ShotLimit => "shot limit",
-                Stop::Cancelled => "interrupted",
+                Stop::Cancelled(Cancellation::TimeLimit) => "time limit",
+                Stop::Cancelled(Cancellation::Interrupt) => "interrupted",
+                Stop::Cancelled(Cancellation::Termination) => "terminated",
+                Stop::Cancelled(Cancellation::Caller) => "cancelled",
                 Stop::Diverged => "diverged",
             },
             surfaces: surfaces.list.len(),

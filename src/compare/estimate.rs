@@ -172,7 +172,7 @@ mod tests {
         };
         let inside = |surface: usize| {
             let ring = &surfaces.list[surface].rings[0];
-            let middle = crate::surface::polygon::centroid(ring);
+            let middle = crate::geometry::polygon::centroid(ring);
             [0.0, 0.5, 0.97].map(|share| wall(surface, middle.lerp(ring[0], share)))
         };
         let sites: Vec<Site> = (0..6).flat_map(inside).collect();

@@ -6,8 +6,8 @@ use obvhs::bvh2::Bvh2;
 use smallvec::SmallVec;
 
 use crate::colour::Rgb;
+use crate::geometry::hierarchy::hierarchy;
 use crate::reconstruct::TriMesh;
-use crate::visibility::hierarchy::hierarchy;
 
 /// Cosine of the largest angle between normals that count as the same: 25°.
 const SAME_NORMAL: f64 = 0.906_307_787_036_65;

@@ -99,8 +99,8 @@ impl<'a> PathTracer<'a> {
     fn meet(&self, place: DVec3, direction: DVec3) -> Option<(Site, bool)> {
         let Met { place, surface, front } = self.occluders.first(place, direction)?;
         // The two sides of a double-sided polygon stand one behind the other.
-        let other = !front && self.surfaces.list[surface as usize].two_sided;
-        let surface = surface as usize + usize::from(other);
+        let other = !front && self.surfaces[surface].two_sided;
+        let surface = surface.index() + usize::from(other);
         let normal = self.surfaces.list[surface].plane.normal;
         Some((Site { surface, place, normal }, front || other))
     }
@@ -137,7 +137,7 @@ impl<'a> PathTracer<'a> {
 
 /// Colour of the texture at a place; 1 where there is none.
 pub(super) fn texel(surfaces: &Surfaces, surface: &Surface, place: DVec3) -> Rgb {
-    let texture = surfaces.materials[surface.material as usize].texture;
+    let texture = surfaces[surface.material].texture;
     texture.zip(surface.uv).map_or(Rgb::ONE, |(texture, uv)| {
         let at = uv.transform_point2(surface.plane.flatten(place));
         surfaces.textures[texture as usize].sample(at)

@@ -87,7 +87,7 @@ impl ComparisonPlan {
         }
         let count = |size: f64| {
             let mesh = Mesh::new(surfaces, &self.uniform_settings(size));
-            let reflects = |&leaf: &_| surfaces.list[mesh.surface_of(leaf)].reflects();
+            let reflects = |&leaf: &_| surfaces[mesh.surface_of(leaf)].reflects();
             mesh.leaves().filter(reflects).count()
         };
         let (coarsest, goal) = (COARSEST.min(fewest), (FINEST * most).min(BEARABLE));

@@ -11,7 +11,7 @@ use super::path_tracer::{PathTracer, Site};
 use super::reference::{Point, Reference, Set, is_open};
 use super::run::Lit;
 use crate::colour::luminance;
-use crate::surface::polygon::{Line, contains, edges};
+use crate::geometry::polygon::{Line, contains, edges};
 use crate::surface::{Surface, Surfaces};
 use crate::watch::in_batches;
 
@@ -144,7 +144,7 @@ impl ShadowProfile {
         let start = plane.flatten(ends[0]);
         let along = (plane.flatten(ends[1]) - start).normalize_or_zero();
         let mesh = &lit.solution.mesh;
-        let outlines = mesh.leaves().filter(|&leaf| mesh.surface_of(leaf) == self.surface);
+        let outlines = mesh.leaves().filter(|&leaf| mesh.surface_of(leaf).index() == self.surface);
         let mut ticks: Vec<f64> = outlines
             .flat_map(|leaf| edges(&mesh.outline(leaf)).collect::<Vec<_>>())
             .filter_map(|[a, b]| {

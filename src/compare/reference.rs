@@ -13,7 +13,7 @@ use super::path_tracer::{PathTracer, Site};
 use super::sample_points::{PointGrid, REACH, area_sites, shadow_sites};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
-use crate::surface::polygon::contains;
+use crate::geometry::polygon::contains;
 use crate::surface::{Surface, Surfaces};
 
 /// A place sees the inside of a solid if more than this share of what it sees is the backs of surfaces.

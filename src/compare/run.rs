@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::mesh::{Divided, ElementId, SizeBin};
 use crate::reconstruct::{Angles, TriMesh, reconstruct};
 use crate::settings::Settings;
-use crate::solver::{Phase, Progress, Solution, Stop, Work, solve};
+use crate::solver::{Cancellation, Phase, Progress, Solution, Stop, Work, solve};
 use crate::surface::Surfaces;
 
 /// How a mesh is divided.
@@ -154,9 +154,9 @@ impl Run {
         let mut clock = Clock::new(seconds);
         let solution = solve(surfaces, settings, |progress| {
             clock.enter(progress.phase);
-            observe(progress)
+            observe(progress).map_break(|()| Cancellation::Caller)
         })?;
-        if solution.stop == Stop::Cancelled {
+        if solution.stop.is_cancelled() {
             return Ok(None);
         }
         clock.leave();
@@ -165,7 +165,7 @@ impl Run {
         let peak_memory = peak.bytes();
         let score = score(reference, &mesh, surfaces.extent);
         let leaves = &solution.mesh;
-        let reflects = |leaf: ElementId| surfaces.list[leaves.surface_of(leaf)].reflects();
+        let reflects = |leaf: ElementId| surfaces[leaves.surface_of(leaf)].reflects();
         Ok(Some(Self {
             family,
             knob,

@@ -8,8 +8,8 @@ use rayon::prelude::*;
 
 use super::path_tracer::{PathTracer, R2, Site};
 use super::sobol::mixed;
+use crate::geometry::cut::{Cuts, convex_pieces};
 use crate::surface::Surfaces;
-use crate::surface::cut::{Cuts, convex_pieces};
 
 /// Places among which those in steep shadow are looked for.
 const CANDIDATES: usize = 60_000;

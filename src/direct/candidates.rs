@@ -9,11 +9,13 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 use obvhs::bvh2::Bvh2;
 
+use super::ids::EmitterId;
 use super::lamp::Lamp;
 use super::lamps::Lamps;
+use crate::geometry::PlanarPolygon;
+use crate::geometry::hierarchy::hierarchy;
 use crate::mesh::{Mesh, Patch, PatchId};
-use crate::visibility::hierarchy::hierarchy;
-use crate::visibility::{Blockers, ConvexBody, Occluders, PlanarPolygon};
+use crate::visibility::{Blockers, ConvexBody, Occluders};
 use crate::watch::in_batches;
 
 /// Patches longer than this share of the longest are regions of their own.
@@ -28,8 +30,7 @@ const AT_ONCE: usize = 64;
 /// A lamp that can shine on a region.
 #[derive(Clone, Debug)]
 pub(super) struct Candidate {
-    /// Index into [`Lamps::list`].
-    pub(super) lamp: u32,
+    pub(super) lamp: EmitterId,
     pub(super) blockers: Blockers,
     /// No place in the region gets more from it, mean of the channels, W/m².
     pub(super) most: f64,
@@ -57,7 +58,11 @@ impl Candidates {
         let tree = hierarchy(&boxes);
         let finder = Finder { lamps, occluders, mesh, tree: &tree, large: LARGE * longest };
         let all = (0..lamps.list.len() as u32)
-            .map(|lamp| Candidate { lamp, blockers: occluders.all(), most: f64::INFINITY })
+            .map(|lamp| Candidate {
+                lamp: EmitterId(lamp),
+                blockers: occluders.all(),
+                most: f64::INFINITY,
+            })
             .collect();
         let mut parts = Vec::new();
         if !mesh.patches.is_empty() {
@@ -152,7 +157,7 @@ impl Finder<'_> {
 
     /// The candidates of a patch by itself, exact but for what is behind its borders.
     fn of_patch(&self, around: &[Candidate], patch: &Patch) -> Vec<Candidate> {
-        let receiver = PlanarPolygon::new(&patch.corners, patch.normal);
+        let receiver = patch.polygon();
         self.narrowing().of_polygon(around.iter(), receiver, 0.0)
     }
 
@@ -160,9 +165,8 @@ impl Finder<'_> {
     fn narrowed(&self, around: &[Candidate], patches: &[PatchId]) -> Vec<Candidate> {
         let (low, high) = self.bounds(patches);
         let reaching = around.iter().filter(|candidate| {
-            let lamp = &self.lamps.list[candidate.lamp as usize];
-            let reaches =
-                |patch: &Patch| lamp.may_reach(PlanarPolygon::new(&patch.corners, patch.normal));
+            let lamp = &self.lamps.list[candidate.lamp.index()];
+            let reaches = |patch: &Patch| lamp.may_reach(patch.polygon());
             patches.iter().any(|&patch| reaches(&self.mesh[patch]))
         });
         let body = ConvexBody::cuboid(low, high);
@@ -206,7 +210,7 @@ impl Narrowing<'_> {
         least: f64,
     ) -> Vec<Candidate> {
         let reaches =
-            |candidate: &&Candidate| self.lamps.list[candidate.lamp as usize].may_reach(receiver);
+            |candidate: &&Candidate| self.lamps.list[candidate.lamp.index()].may_reach(receiver);
         let (reaching, body) = (around.filter(reaches), ConvexBody::polygon(receiver));
         let source = |lamp: &Lamp, most: f64| {
             if most < least { None } else { lamp.body_above(receiver) }
@@ -222,7 +226,7 @@ impl Narrowing<'_> {
         source: impl Fn(&Lamp, f64) -> Option<ConvexBody>,
     ) -> Vec<Candidate> {
         let narrowed = |Candidate { lamp: number, blockers, .. }: &Candidate| {
-            let lamp = &self.lamps.list[*number as usize];
+            let lamp = &self.lamps.list[number.index()];
             let most = lamp.most_on(receiver);
             let source = if blockers.is_clear() { None } else { source(lamp, most) };
             let ignored = |surface| lamp.is_part(surface);

@@ -4,11 +4,13 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::candidates::Candidate;
+use super::ids::EmitterId;
 use super::lamp::Lamp;
 use super::lamps::Lamps;
 use super::pool::Pool;
 use super::punctual;
 use super::view::{LampView, Seen};
+use super::work::{Evaluated, WorkCounters};
 use crate::colour::{Rgb, strength};
 use crate::light::Direct;
 use crate::scene::Light;
@@ -33,17 +35,17 @@ pub(super) struct Evaluation<'a> {
     receiver: SurfacePoint,
     known: Direct,
     /// Lamps that something may stand before.
-    open: SmallVec<[(u32, &'a Blockers, LampView<'a>); 2]>,
+    open: SmallVec<[(EmitterId, &'a Blockers, LampView<'a>); 2]>,
     pool: Pool,
-    evaluations: u64,
-    rays: u64,
+    work: WorkCounters,
 }
 
 impl<'a> Evaluation<'a> {
     /// Of no lamp yet, at a place with a unit normal.
     pub(super) fn new(lamps: &'a Lamps, occluders: &'a Occluders, receiver: SurfacePoint) -> Self {
         let (known, open, pool) = (Direct::default(), SmallVec::new(), Pool::default());
-        Self { lamps, occluders, receiver, known, open, pool, evaluations: 0, rays: 0 }
+        let work = WorkCounters::default();
+        Self { lamps, occluders, receiver, known, open, pool, work }
     }
 
     /// Adds the light of a lamp that looks small and does not matter by itself; false if it looks large.
@@ -52,10 +54,10 @@ impl<'a> Evaluation<'a> {
         Candidate { lamp: number, blockers, .. }: &Candidate,
     ) -> bool {
         let lamps = self.lamps;
-        let glance = lamps.list[*number as usize].glance(self.receiver);
+        let glance = lamps.list[number.index()].glance(self.receiver);
         let Some((sent, middle)) = glance.filter(|_| lamps.rows.is_none()) else { return false };
         if sent.max_element() > 0.0 {
-            self.evaluations += 1;
+            self.work.evaluations += 1;
             self.push(*number, sent, blockers, middle);
         }
         true
@@ -63,7 +65,7 @@ impl<'a> Evaluation<'a> {
 
     /// Takes the light of a lamp, if all is seen, or else puts it to those that are looked at together, by rays to
     /// a place on it.
-    fn push(&mut self, number: u32, sent: Rgb, blockers: &Blockers, at: DVec3) {
+    fn push(&mut self, number: EmitterId, sent: Rgb, blockers: &Blockers, at: DVec3) {
         self.known.unoccluded += sent;
         if blockers.is_clear() {
             self.known.irradiance += sent;
@@ -75,11 +77,11 @@ impl<'a> Evaluation<'a> {
     /// Adds a lamp's light if it can be told at once.
     pub(super) fn add(&mut self, Candidate { lamp: number, blockers, .. }: &'a Candidate) {
         let (lamps, occluders) = (self.lamps, self.occluders);
-        let lamp = &lamps.list[*number as usize];
+        let lamp = &lamps.list[number.index()];
         if let Lamp::Point(point) = lamp {
             self.add_point(*number, point, blockers);
         } else if let Some(view) = lamp.view(self.receiver) {
-            self.evaluations += 1;
+            self.work.evaluations += 1;
             let seen = match lamps.rows {
                 _ if blockers.is_clear() => Some(view.all()),
                 rows => rows.map(|rows| view.sampled_evenly(occluders, rows)),
@@ -91,20 +93,20 @@ impl<'a> Evaluation<'a> {
         }
     }
 
-    fn add_point(&mut self, number: u32, light: &Light, blockers: &Blockers) {
+    fn add_point(&mut self, number: EmitterId, light: &Light, blockers: &Blockers) {
         let found = punctual::irradiance(light, self.receiver, self.lamps.blur);
         let Some((sent, source)) = found else { return };
-        self.evaluations += 1;
+        self.work.evaluations += 1;
         self.push(number, sent, blockers, source.end(self.receiver.position, self.occluders));
     }
 
     fn take(&mut self, view: &LampView<'_>, seen: Seen) {
         self.known = self.known + view.light(seen);
-        self.rays += seen.rays;
+        self.work.rays += seen.rays;
     }
 
     /// All light, once errors are known that do not matter where so much arrives at least, W/m².
-    pub(super) fn finish(mut self, tolerated: impl Fn(f64) -> f64) -> Direct {
+    pub(super) fn finish(mut self, tolerated: impl Fn(f64) -> f64) -> Evaluated {
         let mut open = std::mem::take(&mut self.open);
         let error = tolerated(strength(self.known.irradiance));
         open.retain(|(_, blockers, view)| {
@@ -124,14 +126,14 @@ impl<'a> Evaluation<'a> {
             }
         }
         let (lamps, occluders) = (self.lamps, self.occluders);
-        let sees = |lamp: u32, at: DVec3| {
-            let is_own = |surface| lamps.list[lamp as usize].is_part(surface);
+        let sees = |lamp: EmitterId, at: DVec3| {
+            let is_own = |surface| lamps.list[lamp.index()].is_part(surface);
             !occluders.blocks_beyond(self.receiver.position, at, is_own)
         };
         let (light, rays) = self.pool.shine(SHARE * error, sees);
         self.known.irradiance += light;
-        lamps.tally.add(self.evaluations, self.rays + rays);
-        self.known
+        self.work.rays += rays;
+        Evaluated { light: self.known, work: self.work }
     }
 
     /// What is seen of a lamp that much may stand before.

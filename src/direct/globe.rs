@@ -11,8 +11,10 @@ use smallvec::SmallVec;
 use super::profile::RadianceProfile;
 use super::view::LampView;
 use crate::colour::Rgb;
-use crate::surface::{Surface, Surfaces, Weld};
-use crate::visibility::{HalfSpace, Polygon, SurfacePoint};
+use crate::geometry::Weld;
+use crate::geometry::{HalfSpace, Polygon};
+use crate::surface::{Surface, SurfaceId, Surfaces};
+use crate::visibility::SurfacePoint;
 
 /// Bodies of fewer facets are lamps facet by facet: few enough, and their edges make shadows with lines of their own.
 const LEAST_FACETS: usize = 13;
@@ -24,7 +26,7 @@ const ROUNDING: f64 = 1e-5;
 #[derive(Clone, Debug)]
 pub(super) struct Globe {
     /// Its facets, as indices into [`Surfaces::list`], in order.
-    pub(super) surfaces: Vec<u32>,
+    pub(super) surfaces: Vec<SurfaceId>,
     corners: Vec<DVec3>,
     /// In front of each facet, a hair away from it.
     fronts: Vec<HalfSpace>,
@@ -39,14 +41,13 @@ pub(super) struct Globe {
 pub(super) fn globes(surfaces: &Surfaces) -> Vec<Globe> {
     let mut weld = Weld::new(surfaces.tolerance);
     let is_glowing = |surface: &Surface| {
-        let material = &surfaces.materials[surface.material as usize];
+        let material = &surfaces[surface.material];
         surface.is_emitter() && material.emission_texture.is_none() && surface.rings.len() == 1
     };
-    let glowing: Vec<u32> = (0..surfaces.list.len() as u32)
-        .filter(|&s| is_glowing(&surfaces.list[s as usize]))
-        .collect();
-    let outline = |&number: &u32| {
-        let surface = &surfaces.list[number as usize];
+    let ids = (0..surfaces.list.len() as u32).map(SurfaceId);
+    let glowing: Vec<SurfaceId> = ids.filter(|&id| is_glowing(&surfaces[id])).collect();
+    let outline = |&id: &SurfaceId| {
+        let surface = &surfaces[id];
         let corners = surface.rings[0].iter().map(|&p| surface.plane.lift(p));
         corners.map(|corner| weld.number(corner)).collect::<SmallVec<[u32; 4]>>()
     };
@@ -107,7 +108,7 @@ fn edges(outline: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
 }
 
 /// Facets that glow: their surfaces, their outlines, and which is to the left of each edge.
-type Facets<'a> = (&'a [u32], &'a [SmallVec<[u32; 4]>], &'a BTreeMap<[u32; 2], usize>);
+type Facets<'a> = (&'a [SurfaceId], &'a [SmallVec<[u32; 4]>], &'a BTreeMap<[u32; 2], usize>);
 
 impl Globe {
     /// The body of these facets, which close around it, if it is convex and glows evenly.
@@ -117,7 +118,7 @@ impl Globe {
         members: &[usize],
         places: &[DVec3],
     ) -> Option<Self> {
-        let surface = |facet: usize| &surfaces.list[glowing[facet] as usize];
+        let surface = |facet: usize| &surfaces[glowing[facet]];
         let exitance = surface(members[0]).exitance;
         let mut corners: Vec<u32> =
             members.iter().flat_map(|&facet| outlines[facet].iter().copied()).collect();

@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
 use crate::colour::Rgb;
+use crate::geometry::polygon::{Convex, Line, bounds};
 use crate::mesh::Patch;
-use crate::surface::polygon::{Convex, Line, bounds};
 use crate::surface::{Surface, Surfaces, mean_texture};
 
 /// Halves of a piece whose emissions differ by more than this share of the brightest become pieces.
@@ -19,7 +19,7 @@ pub(super) type GlowingPiece = (SmallVec<[DVec3; 8]>, Rgb);
 
 /// The pieces of a patch: halved along the picture's axes where it varies.
 pub(super) fn pieces(surfaces: &Surfaces, patch: &Patch) -> Vec<GlowingPiece> {
-    let surface = &surfaces.list[patch.surface as usize];
+    let surface = &surfaces[patch.surface];
     let outline: Convex = patch.corners.iter().map(|&p| surface.plane.flatten(p)).collect();
     let mean = mean_texture(surfaces, surface, &outline)[1];
     let (mut open, mut pieces) = (vec![(outline, mean, 0)], Vec::new());

@@ -8,8 +8,11 @@ use super::globe::Globe;
 use super::profile::RadianceProfile;
 use super::view::{FAR, LampView};
 use crate::colour::Rgb;
-use crate::scene::{Light, area_vector};
-use crate::visibility::{ConvexBody, HalfSpace, PlanarPolygon, Polygon, SurfacePoint};
+use crate::geometry::area_vector;
+use crate::geometry::{HalfSpace, PlanarPolygon, Polygon};
+use crate::scene::Light;
+use crate::surface::SurfaceId;
+use crate::visibility::{ConvexBody, SurfacePoint};
 
 /// An emitter.
 #[derive(Clone, Debug)]
@@ -118,7 +121,7 @@ impl Lamp {
     }
 
     /// True if a surface is the lamp itself and hides nothing of it.
-    pub(super) fn is_part(&self, surface: u32) -> bool {
+    pub(super) fn is_part(&self, surface: SurfaceId) -> bool {
         matches!(self, Self::Globe(globe) if globe.surfaces.binary_search(&surface).is_ok())
     }
 

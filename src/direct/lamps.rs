@@ -4,13 +4,12 @@ use glam::DVec3;
 
 use super::lamp::{AreaLamp, Lamp};
 use super::profile::RadianceProfile;
-use super::work_counters::WorkCounters;
 use super::{globe, glow, punctual, sky};
+use crate::geometry::cut::{Cuts, convex_pieces};
 use crate::light::Direct;
 use crate::mesh::Mesh;
 use crate::scene::{Light, NamedLight};
-use crate::surface::Surfaces;
-use crate::surface::cut::{Cuts, convex_pieces};
+use crate::surface::{SurfaceId, Surfaces};
 use crate::visibility::{CROWDED, Occluders, SurfacePoint};
 
 /// All emitters of a scene.
@@ -21,7 +20,6 @@ pub struct Lamps {
     pub(super) rows: Option<u32>,
     /// Radius of the discs on which the light of points is evaluated, m.
     pub(super) blur: f64,
-    pub(super) tally: WorkCounters,
 }
 
 impl Lamps {
@@ -30,12 +28,12 @@ impl Lamps {
         let globes = globe::globes(surfaces);
         let mut in_globe = vec![false; surfaces.list.len()];
         for &facet in globes.iter().flat_map(|globe| &globe.surfaces) {
-            in_globe[facet as usize] = true;
+            in_globe[facet.index()] = true;
         }
-        let emitters = surfaces.list.iter().enumerate().filter(|(_, s)| s.is_emitter());
-        let emitters = emitters.filter(|(number, _)| !in_globe[*number]);
+        let emitters = (0..surfaces.list.len() as u32).map(SurfaceId);
+        let emitters = emitters.filter(|&id| surfaces[id].is_emitter() && !in_globe[id.index()]);
         let mut areas: Vec<AreaLamp> =
-            emitters.flat_map(|(number, _)| areas_of(surfaces, mesh, number)).collect();
+            emitters.flat_map(|id| areas_of(surfaces, mesh, id)).collect();
         let mut points = Vec::new();
         for NamedLight { light, .. } in &surfaces.lights {
             match *light {
@@ -51,7 +49,7 @@ impl Lamps {
         areas.retain(|lamp| lamp.exitance.max_element() > 0.0);
         let areas = areas.into_iter().map(Lamp::Area);
         let list = areas.chain(globes.into_iter().map(Lamp::Globe)).chain(points).collect();
-        Self { list, rows: None, blur: 0.0, tally: WorkCounters::default() }
+        Self { list, rows: None, blur: 0.0 }
     }
 
     /// With [`Settings::shadow_rays`](crate::settings::Settings::shadow_rays): what hides a polygon is found by about
@@ -74,31 +72,10 @@ impl Lamps {
         self.list.is_empty()
     }
 
-    /// How often light has been evaluated so far: pairs of a place and a lamp, or convex piece of one, that
-    /// shines there unless something hides it.
-    pub fn evaluations(&self) -> u64 {
-        self.tally.evaluations()
-    }
-
-    /// Shadow rays so far: to lights that are points, and to others where exact cutting has given up.
-    pub fn rays(&self) -> u64 {
-        self.tally.rays()
-    }
-
-    /// Evaluations and rays so far.
-    pub(crate) fn counts(&self) -> [u64; 2] {
-        [self.evaluations(), self.rays()]
-    }
-
-    /// Counts on from these.
-    pub(crate) fn count_from(&self, [evaluations, rays]: [u64; 2]) {
-        self.tally.set(evaluations, rays);
-    }
-
     /// What arrives at a place with unit `normal`.
     pub fn shine(&self, occluders: &Occluders, place: DVec3, normal: DVec3) -> Direct {
         let (all, receiver) = (occluders.all(), SurfacePoint::new(place, normal));
-        let (mut light, mut evaluations, mut rays) = (Direct::default(), 0, 0);
+        let mut light = Direct::default();
         for lamp in &self.list {
             let arriving = match lamp {
                 Lamp::Point(point) => punctual::shine(point, occluders, receiver),
@@ -108,27 +85,22 @@ impl Lamps {
                         |rows| Some(view.sampled_evenly(occluders, rows)),
                     );
                     let seen = seen.unwrap_or_else(|| view.sampled(occluders, 0.0));
-                    (view.light(seen), seen.rays)
+                    view.light(seen)
                 }),
             };
-            if let Some((arriving, more)) = arriving {
-                light = light + arriving;
-                evaluations += 1;
-                rays += more;
-            }
+            light = light + arriving.unwrap_or_default();
         }
-        self.tally.add(evaluations, rays);
         light
     }
 }
 
 /// The lamps that an emitting surface is: convex pieces, of its patches where a picture says how bright each is.
-fn areas_of(surfaces: &Surfaces, mesh: &Mesh, number: usize) -> Vec<AreaLamp> {
-    let surface = &surfaces.list[number];
+fn areas_of(surfaces: &Surfaces, mesh: &Mesh, id: SurfaceId) -> Vec<AreaLamp> {
+    let surface = &surfaces[id];
     let front = globe::front(surface, surfaces.tolerance);
     let profile = RadianceProfile::Diffuse;
-    if surfaces.materials[surface.material as usize].emission_texture.is_some() {
-        let patches = mesh.patches.iter().filter(|patch| patch.surface == number as u32);
+    if surfaces[surface.material].emission_texture.is_some() {
+        let patches = mesh.patches.iter().filter(|patch| patch.surface == id);
         let pieces = patches.flat_map(|patch| glow::pieces(surfaces, patch));
         return pieces
             .map(|(corners, exitance)| AreaLamp { corners, front, exitance, profile })
@@ -136,7 +108,7 @@ fn areas_of(surfaces: &Surfaces, mesh: &Mesh, number: usize) -> Vec<AreaLamp> {
     }
     let cuts = Cuts { segments: &[], size: f64::INFINITY, tolerance: surfaces.tolerance };
     let pieces = convex_pieces(&surface.rings, &cuts);
-    let lamp = |piece: &crate::surface::polygon::Convex| AreaLamp {
+    let lamp = |piece: &crate::geometry::polygon::Convex| AreaLamp {
         corners: piece.iter().map(|&p| surface.plane.lift(p)).collect(),
         front,
         exitance: surface.exitance,

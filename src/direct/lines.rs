@@ -15,8 +15,10 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
+use super::ids::EmitterId;
 use super::lamp::AreaLamp;
-use crate::visibility::{HalfSpace, Occluders, PlanarPolygon};
+use crate::geometry::{HalfSpace, PlanarPolygon};
+use crate::visibility::{OccluderId, Occluders};
 
 /// An edge as high over the receiver as this share of the lamp's corner throws no shadow worth a line:
 /// it would be very far away.
@@ -33,12 +35,12 @@ pub struct EventLine {
     /// What interpolation over the receiver's width may lose for want of it, at most, W/m² of irradiance.
     pub bound: f64,
     /// The number of the lamp whose view changes.
-    pub(crate) lamp: u32,
+    pub(crate) lamp: EmitterId,
 }
 
 /// A lamp that shines on a receiver.
 pub(super) struct Shining<'a> {
-    pub(super) number: u32,
+    pub(super) number: EmitterId,
     pub(super) lamp: &'a AreaLamp,
     /// The part of it above the receiver.
     pub(super) above: &'a [DVec3],
@@ -54,7 +56,7 @@ impl Shining<'_> {
     pub(super) fn lines(
         &self,
         occluders: &Occluders,
-        numbers: impl Iterator<Item = u32>,
+        numbers: impl Iterator<Item = OccluderId>,
     ) -> Vec<EventLine> {
         let mut lines = Vec::new();
         numbers.for_each(|number| self.lines_by(occluders, number, &mut lines));
@@ -62,7 +64,7 @@ impl Shining<'_> {
     }
 
     /// The lines that one occluder makes.
-    fn lines_by(&self, occluders: &Occluders, occluder: u32, lines: &mut Vec<EventLine>) {
+    fn lines_by(&self, occluders: &Occluders, occluder: OccluderId, lines: &mut Vec<EventLine>) {
         let receiver = self.receiver.plane;
         let between = self.lamp.front.clip(&receiver.clip(occluders.polygon(occluder).corners));
         let n = between.len();

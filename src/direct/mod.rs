@@ -2,8 +2,9 @@
 //!
 //! It carries the hard edges, so it is never carried by the hemicube.
 
+mod ids;
 mod profile;
-mod work_counters;
+mod work;
 
 mod view;
 
@@ -31,7 +32,9 @@ mod evaluation;
 
 mod patch_light;
 
+pub use ids::EmitterId;
 pub use lamps::Lamps;
 pub use lines::EventLine;
 pub use patch_light::{Outlook, PatchLight};
 pub(crate) use sent::Sent;
+pub use work::{Evaluated, WorkCounters};

@@ -8,15 +8,17 @@ use rayon::prelude::*;
 
 use super::candidates::{Candidate, Candidates, Narrowing};
 use super::evaluation::{Evaluation, POOLED};
+use super::ids::EmitterId;
 use super::lamp::Lamp;
 use super::lamps::Lamps;
 use super::lines::{EventLine, Shining};
 use super::punctual;
+use super::work::{Evaluated, WorkCounters};
 use crate::colour::{Rgb, strength};
-use crate::light::Direct;
+use crate::geometry::PlanarPolygon;
+use crate::geometry::boxes::{self, Aabb};
 use crate::mesh::{Mesh, PatchId};
-use crate::scene::boxes::{self, Aabb};
-use crate::visibility::{Blockers, CROWDED, ConvexBody, Occluders, PlanarPolygon, SurfacePoint};
+use crate::visibility::{Blockers, CROWDED, ConvexBody, Occluders, SurfacePoint};
 
 /// Lamps that can send no more than this share of a tolerated error anywhere on a patch are looked at together there, by
 /// what their middles send.
@@ -37,6 +39,7 @@ pub struct PatchLight {
     /// By patch: its unit normal.
     normals: Vec<DVec3>,
     tolerated: Tolerated,
+    work: WorkCounters,
 }
 
 /// The lamps that can shine on a patch, or a part of one, and what stands in between.
@@ -77,14 +80,16 @@ impl PatchLight {
     ) -> Self {
         let candidates = Candidates::new(&lamps, &occluders, mesh, observe);
         let normals = mesh.patches.iter().map(|patch| patch.normal).collect();
-        Self { lamps, occluders, candidates, normals, tolerated: Tolerated::default() }
+        let (tolerated, work) = (Tolerated::default(), WorkCounters::default());
+        Self { lamps, occluders, candidates, normals, tolerated, work }
     }
 
     /// The same with errors up to half of those that are tolerated on each patch: given as shares of the geometric
     /// mean of the irradiance there and that of all patches.
     #[must_use]
     pub fn tolerating(mut self, mesh: &Mesh, shares: Vec<f32>) -> Self {
-        let mean = self.mean_irradiance(mesh);
+        let (mean, work) = self.mean_irradiance(mesh);
+        self.work += work;
         self.tolerated = Tolerated { shares, mean };
         self
     }
@@ -92,6 +97,11 @@ impl PatchLight {
     /// Where it comes from.
     pub fn lamps(&self) -> &Lamps {
         &self.lamps
+    }
+
+    /// What it has taken to find out how much light there is in all.
+    pub(crate) fn work(&self) -> WorkCounters {
+        self.work
     }
 
     /// What stands in its way.
@@ -106,7 +116,7 @@ impl PatchLight {
     }
 
     /// What arrives at a place on a patch.
-    pub fn at(&self, patch: PatchId, place: DVec3) -> Direct {
+    pub fn at(&self, patch: PatchId, place: DVec3) -> Evaluated {
         self.on(patch).at(place)
     }
 
@@ -115,7 +125,7 @@ impl PatchLight {
         let receiver = SurfacePoint::new(place, self.normals[patch.index()]);
         let Outlook { around, faint, .. } = self.on(patch);
         let sent = |candidate: &Candidate| {
-            let lamp = &self.lamps.list[candidate.lamp as usize];
+            let lamp = &self.lamps.list[candidate.lamp.index()];
             let glance = (candidate.most < faint).then(|| lamp.glance(receiver)).flatten();
             match lamp {
                 Lamp::Point(light) => {
@@ -135,7 +145,7 @@ impl PatchLight {
         &self,
         patch: PatchId,
         place: DVec3,
-        chosen: impl Fn(u32) -> bool,
+        chosen: impl Fn(EmitterId) -> bool,
     ) -> Option<Rgb> {
         let receiver = SurfacePoint::new(place, self.normals[patch.index()]);
         let candidates = self.candidates.of(patch).iter();
@@ -143,7 +153,7 @@ impl PatchLight {
         for Candidate { lamp, blockers, .. } in
             candidates.filter(|candidate| chosen(candidate.lamp))
         {
-            let Some(view) = self.lamps.list[*lamp as usize].view(receiver) else { continue };
+            let Some(view) = self.lamps.list[lamp.index()].view(receiver) else { continue };
             let seen = match self.lamps.rows {
                 Some(rows) => view.sampled_evenly(&self.occluders, rows),
                 None => view.exact(&self.occluders, blockers, CROWDED)?,
@@ -164,7 +174,7 @@ impl PatchLight {
         let mut lines = Vec::new();
         let candidates = self.candidates.of(patch).iter();
         for Candidate { lamp: number, blockers, .. } in candidates.filter(|c| c.most > least) {
-            let source = &self.lamps.list[*number as usize];
+            let source = &self.lamps.list[number.index()];
             let Lamp::Area(lamp) = source else { continue };
             let Some(above) = lamp.above(receiver).filter(|_| !lamp.profile.is_sky()) else {
                 continue;
@@ -185,8 +195,8 @@ impl PatchLight {
         lines
     }
 
-    /// Mean irradiance of the scene, W/m², estimated from some places.
-    fn mean_irradiance(&self, mesh: &Mesh) -> f64 {
+    /// Mean irradiance of the scene, W/m², estimated from some places, and what that took.
+    fn mean_irradiance(&self, mesh: &Mesh) -> (f64, WorkCounters) {
         /// Places, evenly by area.
         const PLACES: usize = 256;
         let area: f64 = mesh.patches.iter().map(|patch| patch.area).sum();
@@ -202,10 +212,12 @@ impl PatchLight {
             let corners = &mesh[patch].corners;
             let place = corners.iter().sum::<DVec3>() / corners.len() as f64;
             // A ray or two for each lamp.
-            strength(self.on(patch).within(place, |here| here.max(f64::MIN_POSITIVE)).irradiance)
+            self.on(patch).within(place, |here| here.max(f64::MIN_POSITIVE))
         };
-        let found: Vec<f64> = chosen.par_iter().map(irradiance).collect();
-        found.iter().sum::<f64>() / found.len().max(1) as f64
+        let found: Vec<Evaluated> = chosen.par_iter().map(irradiance).collect();
+        let sum: f64 = found.iter().map(|evaluated| strength(evaluated.light.irradiance)).sum();
+        let work = found.iter().map(|evaluated| evaluated.work).sum();
+        (sum / found.len().max(1) as f64, work)
     }
 }
 
@@ -245,7 +257,7 @@ impl<'a> Outlook<'a> {
         let corners = mesh[self.patch].corners.iter().copied();
         let around = boxes::around(corners);
         self.candidates().any(|candidate| {
-            let body = self.light.lamps.list[candidate.lamp as usize].body();
+            let body = self.light.lamps.list[candidate.lamp.index()].body();
             body.is_some_and(|body| {
                 let (low, high) = body.bounds();
                 boxes::are_close(around, Aabb { low, high }, distance)
@@ -254,21 +266,21 @@ impl<'a> Outlook<'a> {
     }
 
     /// What arrives at a place.
-    pub fn at(&self, place: DVec3) -> Direct {
+    pub fn at(&self, place: DVec3) -> Evaluated {
         self.within(place, |here| self.light.tolerated.error(self.patch, here))
     }
 
     /// The same with errors as are `tolerated` where at least so much arrives, W/m².
-    fn within(&self, place: DVec3, tolerated: impl Fn(f64) -> f64) -> Direct {
+    fn within(&self, place: DVec3, tolerated: impl Fn(f64) -> f64) -> Evaluated {
         let normal = self.light.normals[self.patch.index()];
         let PatchLight { lamps, occluders, .. } = self.light;
-        let mut work = Evaluation::new(lamps, occluders, SurfacePoint::new(place, normal));
+        let mut evaluation = Evaluation::new(lamps, occluders, SurfacePoint::new(place, normal));
         for candidate in self.candidates() {
-            if candidate.most >= self.faint || !work.add_faint(candidate) {
-                work.add(candidate);
+            if candidate.most >= self.faint || !evaluation.add_faint(candidate) {
+                evaluation.add(candidate);
             }
         }
-        work.finish(tolerated)
+        evaluation.finish(tolerated)
     }
 
     /// Those that shine here: the strong ones in their order, then those that are faint on all of the patch.

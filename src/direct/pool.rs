@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::ids::EmitterId;
 use crate::colour::Rgb;
 
 /// Most rays to all of them.
@@ -16,7 +17,7 @@ struct Share {
     strength: f64,
     /// A place on it.
     at: DVec3,
-    lamp: u32,
+    lamp: EmitterId,
 }
 
 /// Lamps whose light is summed up, in an order in which neighbours are near each other.
@@ -27,7 +28,7 @@ pub(super) struct Pool {
 }
 
 impl Pool {
-    pub(super) fn push(&mut self, lamp: u32, light: Rgb, at: DVec3) {
+    pub(super) fn push(&mut self, lamp: EmitterId, light: Rgb, at: DVec3) {
         let strength = light.element_sum() / 3.0;
         self.strength += strength;
         self.shares.push(Share { light, strength, at, lamp });
@@ -37,7 +38,7 @@ impl Pool {
     ///
     /// Each ray stands for an equal part of the light, so that none is left out: systematic sampling of the sum,
     /// with a standard deviation of at most half of it over √n. Where there are fewer lamps than rays, each has its own.
-    pub(super) fn shine(&self, error: f64, sees: impl Fn(u32, DVec3) -> bool) -> (Rgb, u64) {
+    pub(super) fn shine(&self, error: f64, sees: impl Fn(EmitterId, DVec3) -> bool) -> (Rgb, u64) {
         if self.strength <= 0.0 {
             return (Rgb::ZERO, 0);
         }
@@ -73,7 +74,7 @@ mod tests {
         fn what_is_all_seen_arrives_whole(strengths in prop::collection::vec(1e-6..1.0f64, 1..400), error in 1e-9..1.0f64) {
             let mut pool = Pool::default();
             for (lamp, &strength) in strengths.iter().enumerate() {
-                pool.push(lamp as u32, Rgb::splat(strength), DVec3::ZERO);
+                pool.push(EmitterId(lamp as u32), Rgb::splat(strength), DVec3::ZERO);
             }
             let (light, rays) = pool.shine(error, |_, _| true);
             let all: f64 = strengths.iter().sum();
@@ -84,8 +85,8 @@ mod tests {
         #[test]
         fn half_of_equal_lamps_send_half(count in 2..300u32, error in 0.001..0.1f64) {
             let mut pool = Pool::default();
-            (0..count).for_each(|lamp| pool.push(lamp, Rgb::splat(1.0 / f64::from(count)), DVec3::ZERO));
-            let (light, rays) = pool.shine(error, |lamp, _| lamp < count / 2);
+            (0..count).map(EmitterId).for_each(|lamp| pool.push(lamp, Rgb::splat(1.0 / f64::from(count)), DVec3::ZERO));
+            let (light, rays) = pool.shine(error, |lamp, _| lamp.0 < count / 2);
             let right = f64::from(count / 2) / f64::from(count);
             let most = 1.0 / rays as f64;
             prop_assert!((light.x - right).abs() <= most, "{} for {right} by {rays} rays", light.x);

@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use crate::form_factor::contour::point_to_polygon_above;
-use crate::visibility::{Polygon, SurfacePoint};
+use crate::geometry::Polygon;
+use crate::visibility::SurfacePoint;
 
 /// How a lamp's radiance depends on the direction from which it comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -41,17 +41,17 @@ const DEEPEST: u32 = 14;
 /// Corners of the polygon that stands for a disc.
 const CORNERS: usize = 8;
 
-/// What arrives at a place with a unit normal, if something may, and the rays that this took.
+/// What arrives at a place with a unit normal, if something may.
 pub(super) fn shine(
     light: &Light,
     occluders: &Occluders,
     receiver: SurfacePoint,
-) -> Option<(Direct, u64)> {
+) -> Option<Direct> {
     let (unoccluded, source) = irradiance(light, receiver, 0.0)?;
     let place = receiver.position;
     let hidden = occluders.blocks(place, source.end(place, occluders));
     let irradiance = if hidden { Rgb::ZERO } else { unoccluded };
-    Some((Direct { irradiance, unoccluded }, 1))
+    Some(Direct { irradiance, unoccluded })
 }
 
 /// Irradiance of an unshadowed place with unit `normal`, W/m², the mean over a disc of that radius, m, around it;

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::ids::EmitterId;
 use super::lamp::Lamp;
 use super::lamps::Lamps;
 use super::punctual;
@@ -14,7 +15,7 @@ use crate::visibility::{Occluders, SurfacePoint};
 const RAYS: usize = 8;
 
 /// The number of a lamp, what it sends to a place if nothing hides it, W/m², and where a ray to it ends.
-type LampRay = (u32, Rgb, DVec3);
+type LampRay = (EmitterId, Rgb, DVec3);
 
 impl Lamps {
     /// What arrives at a point of a surface, by rays to places on the lamps that `random` chooses, even in 0..1.
@@ -41,7 +42,7 @@ impl Lamps {
             let steps = |sum: f64| (sum / all * RAYS as f64 + start).floor();
             let count = steps(passed + strength) - steps(passed);
             passed += strength;
-            let is_own = |surface| self.list[*number as usize].is_part(surface);
+            let is_own = |surface| self.list[number.index()].is_part(surface);
             if count > 0.0 && !occluders.blocks_beyond(receiver.position, *end, is_own) {
                 irradiance += *light * (count * all / (strength * RAYS as f64));
             }
@@ -58,7 +59,7 @@ impl Lamps {
     ) -> Vec<LampRay> {
         let each = RAYS.div_ceil(self.list.len().max(1));
         let mut sent = Vec::new();
-        for (number, lamp) in (0..).zip(&self.list) {
+        for (number, lamp) in (0..).map(EmitterId).zip(&self.list) {
             if let Some(view) = lamp.view(receiver) {
                 let light = view.unoccluded() / each as f64;
                 let shift = [random(), random()];

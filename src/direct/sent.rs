@@ -10,6 +10,7 @@ use super::lamps::Lamps;
 use super::punctual::intensity;
 use crate::colour::{LUMENS_PER_WATT, Rgb};
 use crate::scene::Light;
+use crate::surface::SurfaceId;
 use crate::visibility::Occluders;
 
 /// Rays by which it is found where the light of one goes: of what leaves through an opening, right to some thousandths
@@ -32,7 +33,7 @@ impl Lamps {
     pub(crate) fn sent_by_points(
         &self,
         occluders: &Occluders,
-        is_back: impl Fn(u32) -> bool + Sync,
+        is_back: impl Fn(SurfaceId) -> bool + Sync,
     ) -> Sent {
         let sent = |lamp: &Lamp| match lamp {
             Lamp::Point(light) => sent_by(light, occluders, &is_back),
@@ -47,7 +48,11 @@ impl Lamps {
     }
 }
 
-fn sent_by(light: &Light, occluders: &Occluders, is_back: &impl Fn(u32) -> bool) -> Option<Sent> {
+fn sent_by(
+    light: &Light,
+    occluders: &Occluders,
+    is_back: &impl Fn(SurfaceId) -> bool,
+) -> Option<Sent> {
     let position = light.position()?;
     let (mut all, mut past, mut behind) = (Rgb::ZERO, Rgb::ZERO, Rgb::ZERO);
     for ray in 0..RAYS {

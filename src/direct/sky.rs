@@ -10,9 +10,9 @@ use super::lamp::AreaLamp;
 use super::profile::RadianceProfile;
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon_above;
+use crate::geometry::{HalfSpace, Polygon};
 use crate::scene::{SUN_RADIUS, Sky};
 use crate::surface::Surfaces;
-use crate::visibility::{HalfSpace, Polygon};
 
 /// Half the width of the box, in extents of the scene: the horizon is off by less than 1e-4 radians.
 const FAR: f64 = 1e4;

@@ -39,7 +39,7 @@ impl Lamps {
         }
         for lamp in &self.list {
             if let Lamp::Point(point) = lamp
-                && let Some((direct, _)) = punctual::shine(point, occluders, receiver)
+                && let Some(direct) = punctual::shine(point, occluders, receiver)
             {
                 light += direct.irradiance;
             }

@@ -5,8 +5,10 @@ use glam::DVec3;
 use super::profile::RadianceProfile;
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
+use crate::geometry::{PlanarPolygon, Polygon};
 use crate::light::Direct;
-use crate::visibility::{Blockers, Occluders, PlanarPolygon, Polygon, Pyramid, SurfacePoint};
+use crate::surface::SurfaceId;
+use crate::visibility::{Blockers, Occluders, Pyramid, SurfacePoint};
 
 /// Polygons of a smaller area than this share of the squared distance are taken for points.
 pub(super) const FAR: f64 = 0.01;
@@ -24,7 +26,7 @@ pub(super) struct LampView<'a> {
     /// The whole polygon's irradiance as a share of the exitance.
     pub(super) weight: f64,
     /// Surfaces that are the lamp itself and hide nothing of it.
-    pub(super) own: &'a [u32],
+    pub(super) own: &'a [SurfaceId],
 }
 
 /// How much of a lamp is seen.
@@ -104,7 +106,7 @@ impl LampView<'_> {
         }
     }
 
-    fn is_own(&self, surface: u32) -> bool {
+    fn is_own(&self, surface: SurfaceId) -> bool {
         self.own.binary_search(&surface).is_ok()
     }
 }

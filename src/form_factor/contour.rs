@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use crate::visibility::HalfSpace;
+use crate::geometry::HalfSpace;
 
 /// Form factor (0..=1) from a point on a surface with unit `normal` to a polygon, occlusion not included.
 ///

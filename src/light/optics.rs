@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::colour::Rgb;
-use crate::mesh::{Element, Mesh, PatchId};
+use crate::mesh::{Element, Mesh, PatchId, VertexId};
 use crate::surface::{Surfaces, mean_reflectance, mean_texture};
 
 /// Diffuse optics of the patches of a mesh; both lists one entry per patch.
@@ -20,8 +20,7 @@ impl Optics {
     pub fn new(surfaces: &Surfaces, mesh: &Mesh) -> Self {
         let of = |index: usize| {
             let patch = &mesh.patches[index];
-            let (surface, outline) =
-                (&surfaces.list[patch.surface as usize], mesh.outline(patch.root));
+            let (surface, outline) = (&surfaces[patch.surface], mesh.outline(patch.root));
             let exitance = surface.exitance * mean_texture(surfaces, surface, &outline)[1];
             (mean_reflectance(surfaces, surface, &outline), exitance)
         };
@@ -32,6 +31,16 @@ impl Optics {
     /// Mean diffuse reflectance of the patch of an element.
     pub fn of(&self, element: &Element) -> Rgb {
         self.reflectance[element.patch.index()]
+    }
+
+    /// Radiosity of an element by `irradiance` at a vertex, both W/m².
+    pub fn reflected<F: Fn(VertexId) -> Rgb>(
+        &self,
+        element: &Element,
+        irradiance: F,
+    ) -> impl Fn(VertexId) -> Rgb + use<F> {
+        let reflectance = self.of(element);
+        move |vertex| reflectance * irradiance(vertex)
     }
 
     /// Black patches show no light, so nothing is gained by dividing them.

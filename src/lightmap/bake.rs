@@ -17,10 +17,10 @@ use super::atlas::Atlas;
 use super::chart::{Chart, PADDING};
 use super::dilate::{Texel, dilate};
 use crate::colour::Rgb;
+use crate::geometry::polygon::{area, centroid};
 use crate::reconstruct::TriMesh;
 use crate::solver::Solution;
 use crate::surface::Surfaces;
-use crate::surface::polygon::{area, centroid};
 
 /// An atlas filled with light.
 #[derive(Clone, Debug)]
@@ -52,7 +52,7 @@ pub fn bake<'a>(
     let mut triangles = vec![Vec::new(); atlas.charts.len()];
     for (triangle, &leaf) in mesh.triangles.iter().zip(&mesh.leaves) {
         let surface = solution.mesh.surface_of(leaf);
-        triangles[atlas.chart_of[surface] as usize].push(*triangle);
+        triangles[atlas.chart_of[surface.index()] as usize].push(*triangle);
     }
     let light: Vec<Rgb> = mesh
         .irradiance

@@ -3,8 +3,9 @@
 use glam::{DVec2, DVec3, UVec2, Vec2Swizzles};
 
 use super::coarse::TriangulatedSurface;
-use crate::surface::polygon::bounds;
-use crate::surface::{Plane, Surfaces};
+use crate::geometry::Plane;
+use crate::geometry::polygon::bounds;
+use crate::surface::Surfaces;
 
 /// Texels around a chart that repeat its border, at least. As the rectangles of charts begin and end at
 /// multiples of [`BLOCK`], bilinear lookups in the map and in its first two mip levels stay in them.

@@ -5,8 +5,10 @@ use std::ops::Range;
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
+use crate::geometry::Weld;
 use crate::reconstruct::{Places, normal_at, triangulate};
-use crate::surface::{Surface, Surfaces, Weld};
+use crate::scene::MaterialId;
+use crate::surface::{Surface, Surfaces};
 
 /// A triangle mesh that has its light in a picture; all per-vertex lists are as long as `positions`.
 #[derive(Clone, Debug, Default)]
@@ -30,8 +32,8 @@ pub struct CoarseMesh {
 /// A run of triangles of one material.
 #[derive(Clone, Debug)]
 pub struct CoarsePart {
-    /// Index into [`Surfaces::materials`].
-    pub material: u32,
+    /// Its material.
+    pub material: MaterialId,
     /// Range of indices into [`CoarseMesh::triangles`].
     pub triangles: Range<usize>,
 }
@@ -173,8 +175,8 @@ impl CoarseMesh {
 }
 
 /// Surfaces by material, in the order in which these are first seen.
-fn by_material(surfaces: &Surfaces) -> Vec<(u32, Vec<usize>)> {
-    let mut found: Vec<(u32, Vec<usize>)> = Vec::new();
+fn by_material(surfaces: &Surfaces) -> Vec<(MaterialId, Vec<usize>)> {
+    let mut found: Vec<(MaterialId, Vec<usize>)> = Vec::new();
     let mut places = BTreeMap::new();
     for (number, surface) in surfaces.list.iter().enumerate() {
         let place = *places.entry(surface.material).or_insert_with(|| {

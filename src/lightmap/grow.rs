@@ -6,8 +6,9 @@ use glam::DVec3;
 
 use super::coarse::TriangulatedSurface;
 use super::overlap::{FlatTriangle, overlap};
+use crate::geometry::Plane;
 use crate::reconstruct::normal_at;
-use crate::surface::{Plane, Surface, Surfaces};
+use crate::surface::{Surface, Surfaces};
 
 /// Least cosine between the normals of a chart and of its facets: a facet loses at most a third of its texels
 /// by projection, and a sphere takes about a dozen charts.

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::surface::polygon::{bounds, edges};
+use crate::geometry::polygon::{bounds, edges};
 
 /// A triangle, counter-clockwise.
 pub(super) type FlatTriangle = [DVec2; 3];

@@ -7,11 +7,12 @@ use smallvec::SmallVec;
 use super::ids::{ElementId, PatchId, VertexId};
 use super::topology::{Corners, Element, Mesh, Patch, Reason, Vertex};
 use super::vertex_index::{SurfaceVertices, VertexIndex, apart};
-use crate::scene::boxes::{self, Tree, are_close};
+use crate::geometry::boxes::{self, Tree, are_close};
+use crate::geometry::cut::{Cuts, convex_pieces};
+use crate::geometry::polygon::{self, Convex, Segment};
+use crate::geometry::{Plane, cells_around};
 use crate::settings::Settings;
-use crate::surface::cut::{Cuts, convex_pieces};
-use crate::surface::polygon::{self, Convex, Segment};
-use crate::surface::{Contact, Plane, Surface, Surfaces, cells_around};
+use crate::surface::{Contact, Surface, SurfaceId, Surfaces};
 
 /// How far inside a border light is evaluated, in tolerances: well beyond what counts as touching it.
 const INSET: f64 = 50.0;
@@ -42,12 +43,12 @@ impl Mesh {
             limit: settings.max_elements.unwrap_or(usize::MAX),
             is_full: false,
         };
-        let numbers: Vec<u32> = (0..surfaces.list.len() as u32).collect();
-        for numbers in numbers.chunks(AT_ONCE) {
-            let pieces = |&number: &u32| mesh.index.pieces(surfaces, number, settings);
-            let pieces: Vec<Vec<PatchOutline>> = numbers.par_iter().map(pieces).collect();
-            for (&number, pieces) in numbers.iter().zip(pieces) {
-                pieces.into_iter().for_each(|piece| mesh.add_patch(surfaces, number, piece));
+        let ids: Vec<SurfaceId> = (0..surfaces.list.len() as u32).map(SurfaceId).collect();
+        for ids in ids.chunks(AT_ONCE) {
+            let pieces = |&id: &SurfaceId| mesh.index.pieces(surfaces, id, settings);
+            let pieces: Vec<Vec<PatchOutline>> = ids.par_iter().map(pieces).collect();
+            for (&id, pieces) in ids.iter().zip(pieces) {
+                pieces.into_iter().for_each(|piece| mesh.add_patch(surfaces, id, piece));
             }
         }
         if let Some(size) = settings.uniform {
@@ -57,10 +58,10 @@ impl Mesh {
     }
 
     /// Adds a patch with its element; none where the corners are so close together that they enclose nothing.
-    fn add_patch(&mut self, surfaces: &Surfaces, number: u32, piece: PatchOutline) {
+    fn add_patch(&mut self, surfaces: &Surfaces, id: SurfaceId, piece: PatchOutline) {
         let PatchOutline { outline, contacts } = piece;
-        let surface = &surfaces.list[number as usize];
-        let outline = self.settled(number, &outline);
+        let surface = &surfaces[id];
+        let outline = self.settled(id, &outline);
         if outline.len() < 3 || polygon::area(&outline) <= 0.0 {
             return;
         }
@@ -68,7 +69,7 @@ impl Mesh {
         let root = ElementId(self.elements.len() as u32);
         let area = polygon::area(&outline);
         self.patches.push(Patch {
-            surface: number,
+            surface: id,
             root,
             corners: outline.iter().map(|&p| surface.plane.lift(p)).collect(),
             normal: surface.plane.normal,
@@ -82,8 +83,8 @@ impl Mesh {
     }
 
     /// An outline with its corners moved to vertices that are close to them, each passed once.
-    fn settled(&self, surface: u32, outline: &[DVec2]) -> Convex {
-        let apart = self.index.sheets[surface as usize].apart;
+    fn settled(&self, surface: SurfaceId, outline: &[DVec2]) -> Convex {
+        let apart = self.index.sheets[surface.index()].apart;
         let mut settled = Convex::new();
         for &corner in outline {
             let corner = self.place(surface, corner).unwrap_or(corner);
@@ -117,10 +118,10 @@ impl Mesh {
     }
 
     /// Where on a surface the first vertex is that counts as being at a position.
-    fn place(&self, surface: u32, position: DVec2) -> Option<DVec2> {
+    fn place(&self, surface: SurfaceId, position: DVec2) -> Option<DVec2> {
         let VertexIndex { cells, sheets, .. } = &self.index;
-        let apart = sheets[surface as usize].apart;
-        let keys = cells_around(surface, position.extend(0.0), apart);
+        let apart = sheets[surface.index()].apart;
+        let keys = cells_around(surface.0, position.extend(0.0), apart);
         let vertices = keys.flat_map(|key| cells.of(key)).map(|number| &self[VertexId(number)]);
         let mut on_surface = vertices.filter(|vertex| vertex.surface == surface);
         let first = on_surface.find(|vertex| vertex.position.distance(position) <= apart);
@@ -144,7 +145,7 @@ impl Mesh {
     /// The vertex of a patch at a place on an edge; where one of any surface is close by on it, at that place.
     pub(super) fn vertex_on(&mut self, patch: PatchId, edge: Segment, position: DVec2) -> VertexId {
         self.mark();
-        let SurfaceVertices { plane, .. } = &self.index.sheets[self[patch].surface as usize];
+        let SurfaceVertices { plane, .. } = &self.index.sheets[self[patch].surface.index()];
         let reach = CLOSE * edge[0].distance(edge[1]);
         let flat = |place: DVec3| {
             let flat = plane.flatten(place);
@@ -161,7 +162,7 @@ impl Mesh {
     fn mark(&mut self) {
         let VertexIndex { sheets, landmarks, .. } = &mut self.index;
         for vertex in &self.vertices[landmarks.marked..] {
-            landmarks.add(sheets[vertex.surface as usize].plane.lift(vertex.position));
+            landmarks.add(sheets[vertex.surface.index()].plane.lift(vertex.position));
         }
         landmarks.marked = self.vertices.len();
     }
@@ -185,7 +186,7 @@ impl Mesh {
 
     /// The plane of a patch.
     pub fn plane(&self, patch: PatchId) -> &Plane {
-        &self.index.sheets[self[patch].surface as usize].plane
+        &self.index.sheets[self[patch].surface.index()].plane
     }
 
     /// What is nearer than this, m, counts as one place on a surface.
@@ -200,7 +201,7 @@ impl Mesh {
     /// The contact lines that run through a place on a patch.
     fn contacts_at(&self, patch: PatchId, position: DVec2) -> impl Iterator<Item = &Contact> {
         let Patch { surface, contacts, .. } = &self[patch];
-        let SurfaceVertices { contacts: lines, apart, .. } = &self.index.sheets[*surface as usize];
+        let SurfaceVertices { contacts: lines, apart, .. } = &self.index.sheets[surface.index()];
         let lines = contacts.iter().map(|&line| &lines[line as usize]);
         lines.filter(move |line| polygon::distance(line.segment, position) <= *apart)
     }
@@ -277,9 +278,9 @@ pub fn patch_counts(surfaces: &Surfaces, settings: &Settings) -> Vec<usize> {
 
 impl VertexIndex {
     /// The pieces of a surface, in the order of its patches.
-    fn pieces(&self, surfaces: &Surfaces, number: u32, settings: &Settings) -> Vec<PatchOutline> {
-        let surface = &surfaces.list[number as usize];
-        let SurfaceVertices { contacts, apart, .. } = &self.sheets[number as usize];
+    fn pieces(&self, surfaces: &Surfaces, id: SurfaceId, settings: &Settings) -> Vec<PatchOutline> {
+        let surface = &surfaces[id];
+        let SurfaceVertices { contacts, apart, .. } = &self.sheets[id.index()];
         let flat = |line: &Contact| boxes::around(line.segment.map(|p| p.extend(0.0)));
         let tree = Tree::new(contacts.iter().map(flat).collect());
         let piece = |outline: Convex| PatchOutline {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::surface::{Cells, Weld, cell_key, cells_around};
+use crate::geometry::{Cells, Weld, cell_key, cells_around};
 
 /// Places of vertices in space, each once.
 #[derive(Clone, Debug)]

@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 
 use super::ids::{ElementId, VertexId};
 use super::topology::{Corners, Element, Mesh, Reason};
-use crate::surface::polygon::{self, Convex};
+use crate::geometry::polygon::{self, Convex};
 
 /// A quadrilateral this much longer than wide is halved, not quartered.
 const LONG: f64 = 1.8;

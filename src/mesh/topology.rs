@@ -5,8 +5,10 @@ use smallvec::SmallVec;
 
 use super::ids::{ElementId, PatchId, VertexId};
 use super::vertex_index::VertexIndex;
-use crate::surface::Plane;
-use crate::surface::polygon::{self, Convex};
+use crate::geometry::PlanarPolygon;
+use crate::geometry::Plane;
+use crate::geometry::polygon::{self, Convex};
+use crate::surface::SurfaceId;
 
 /// Parts of an element that is divided, at most.
 const MOST_PARTS: usize = 4;
@@ -32,8 +34,8 @@ pub struct Mesh {
 /// A coarse piece of a surface: it shoots.
 #[derive(Clone, Debug)]
 pub struct Patch {
-    /// Index into [`crate::surface::Surfaces::list`].
-    pub surface: u32,
+    /// The surface that it is a piece of.
+    pub surface: SurfaceId,
     /// The element that covers it.
     pub root: ElementId,
     /// Its corners in space, m.
@@ -46,6 +48,13 @@ pub struct Patch {
     pub two_sided: bool,
     /// Contact lines and inner corners of its surface that touch it.
     pub(super) contacts: SmallVec<[u32; 4]>,
+}
+
+impl Patch {
+    /// Its outline, and the plane that it lies in.
+    pub fn polygon(&self) -> PlanarPolygon<'_> {
+        PlanarPolygon::new(&self.corners, self.normal)
+    }
 }
 
 /// A convex polygon on a patch, at one level of its tree: it receives.
@@ -83,8 +92,8 @@ pub enum Reason {
 /// A place on a surface at which light may be known.
 #[derive(Clone, Debug)]
 pub struct Vertex {
-    /// Index into [`crate::surface::Surfaces::list`].
-    pub surface: u32,
+    /// The surface that it is on.
+    pub surface: SurfaceId,
     /// The patch, of perhaps several, on which light is evaluated for it.
     pub patch: PatchId,
     /// Coordinates on the surface's plane, m.
@@ -131,9 +140,9 @@ impl Mesh {
         trees
     }
 
-    /// The surface an element lies on, as an index into [`crate::surface::Surfaces::list`].
-    pub fn surface_of(&self, element: ElementId) -> usize {
-        self[self[element].patch].surface as usize
+    /// The surface an element lies on.
+    pub fn surface_of(&self, element: ElementId) -> SurfaceId {
+        self[self[element].patch].surface
     }
 
     /// An element's corners on its surface's plane, m.

@@ -3,9 +3,10 @@
 use glam::DVec2;
 
 use super::landmarks::Landmarks;
+use crate::geometry::polygon;
+use crate::geometry::{Cells, Plane, cell_key};
 use crate::settings::Settings;
-use crate::surface::polygon;
-use crate::surface::{Cells, Contact, Plane, Surface, Surfaces, cell_key};
+use crate::surface::{Contact, Surface, SurfaceId, Surfaces};
 
 /// But none is moved farther than so many of the shortest sides that elements may have.
 const FARTHEST: f64 = 4.0;
@@ -57,8 +58,8 @@ impl VertexIndex {
     }
 
     /// The cell around a place on a surface.
-    pub(super) fn key(&self, surface: u32, place: DVec2) -> u64 {
-        cell_key(surface, place.extend(0.0), self.sheets[surface as usize].apart)
+    pub(super) fn key(&self, surface: SurfaceId, place: DVec2) -> u64 {
+        cell_key(surface.0, place.extend(0.0), self.sheets[surface.index()].apart)
     }
 }
 

@@ -7,9 +7,11 @@ use super::glow::Glow;
 use super::smooth;
 use super::surface_triangles::{OutlinedLeaves, SurfaceTriangles};
 use super::trimesh::{MeshPart, TriMesh};
+use crate::geometry::Weld;
 use crate::mesh::{ElementId, Mesh, VertexId};
+use crate::scene::MaterialId;
 use crate::solver::Solution;
-use crate::surface::{Surfaces, Weld};
+use crate::surface::Surfaces;
 
 /// What is nearer than so many tolerances is one place: no two vertices of a mesh are, but those of one place.
 const ONE_PLACE: f64 = 10.0;
@@ -61,7 +63,7 @@ fn outlined_leaves(surfaces: &Surfaces, mesh: &Mesh, weld: &mut Weld) -> Vec<Out
 fn leaves_by_surface(surfaces: &Surfaces, mesh: &Mesh) -> Vec<Vec<ElementId>> {
     let mut leaves = vec![Vec::new(); surfaces.list.len()];
     for leaf in mesh.leaves() {
-        leaves[mesh.surface_of(leaf)].push(leaf);
+        leaves[mesh.surface_of(leaf).index()].push(leaf);
     }
     leaves
 }
@@ -84,16 +86,16 @@ fn assemble(
         cameras: surfaces.cameras.clone(),
         ..TriMesh::default()
     };
-    for (number, material) in surfaces.materials.iter().enumerate() {
+    for (id, material) in (0..).map(MaterialId).zip(&surfaces.materials) {
         let first = mesh.parts.len();
-        let fixed = (lamps == LampStrength::Fixed).then_some(number as u32);
-        let glow = fixed.and_then(|number| Glow::of_material(surfaces, number, all));
+        let fixed = (lamps == LampStrength::Fixed).then_some(id);
+        let glow = fixed.and_then(|id| Glow::of_material(surfaces, id, all));
         let texture = match &glow {
             Some(glow) => Some(glow.added_to(&mut mesh.textures)),
             None => material.texture,
         };
         for (surface, own) in surfaces.list.iter().zip(all) {
-            if surface.material as usize == number {
+            if surface.material == id {
                 let start = mesh.triangles.len();
                 append(&mut mesh, places, own, glow.as_ref());
                 let (object, end) = (Some(surface.object), mesh.triangles.len());

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use crate::surface::Weld;
+use crate::geometry::Weld;
 
 /// Cells along the scene's diagonal; an edge passes few of them.
 const CELLS: f64 = 160.0;

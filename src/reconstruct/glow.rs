@@ -10,7 +10,7 @@ use glam::Vec2;
 
 use super::surface_triangles::{LitCorner, SurfaceTriangles};
 use crate::colour::Rgb;
-use crate::scene::{Material, Scene, Texture};
+use crate::scene::{Material, MaterialId, Scene, Texture};
 use crate::surface::{Surface, Surfaces};
 
 /// The pictures that the mesh of a scene may have, by their numbers: those of the scene and, empty as long as there is
@@ -41,18 +41,18 @@ impl<'a> Glow<'a> {
     /// Nothing for a material that does not shine or has no picture.
     pub(super) fn of_material(
         surfaces: &'a Surfaces,
-        number: u32,
+        id: MaterialId,
         all: &[SurfaceTriangles],
     ) -> Option<Self> {
-        let material = &surfaces.materials[number as usize];
+        let material = &surfaces[id];
         let [colour, emission] = [material.texture, material.emission_texture].map(|texture| {
             let texture = texture.map(|number| &surfaces.textures[number as usize]);
             texture.filter(|texture| !texture.texels.is_empty())
         });
         colour.or(emission)?;
-        let is_lamp = |surface: &&Surface| surface.material == number && surface.is_emitter();
+        let is_lamp = |surface: &&Surface| surface.material == id && surface.is_emitter();
         let exitance = surfaces.list.iter().find(is_lamp)?.exitance;
-        let own = all.iter().filter(|triangles| triangles.material == number);
+        let own = all.iter().filter(|triangles| triangles.material == id);
         let (mut sum, mut means) = (Rgb::ZERO, Rgb::ZERO);
         for corner in own.flat_map(|triangles| &triangles.corners) {
             sum += corner.radiosity - corner.emitted;

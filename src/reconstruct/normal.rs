@@ -2,7 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::surface::{Surface, polygon};
+use crate::geometry::polygon;
+use crate::surface::Surface;
 
 /// The normal at a place on a surface, m: its own, or that of the curved surface it stands for,
 /// blended between the corners by mean value coordinates ([Floater 2003]).

@@ -12,6 +12,7 @@ use super::trimesh::Irradiance;
 use crate::colour::Rgb;
 use crate::light::VertexLight;
 use crate::mesh::{Element, ElementId, Mesh, VertexId};
+use crate::scene::MaterialId;
 use crate::solver::Solution;
 use crate::surface::{Surface, Surfaces, mean_texture};
 
@@ -27,8 +28,7 @@ pub(super) struct SurfaceTriangles {
     pub(super) hanging: Vec<u32>,
     /// True if the surface stands for a part of a curved one.
     pub(super) curved: bool,
-    /// Index into [`Surfaces::materials`].
-    pub(super) material: u32,
+    pub(super) material: MaterialId,
 }
 
 /// What will be a vertex of the triangle mesh.

@@ -5,8 +5,8 @@ use std::ops::Range;
 use glam::{DVec3, Vec2, Vec3};
 
 use crate::colour::Rgb;
+use crate::geometry::boxes::local_origin;
 use crate::mesh::ElementId;
-use crate::scene::boxes::local_origin;
 use crate::scene::{Camera, Node, Texture};
 use crate::surface::LightGroup;
 

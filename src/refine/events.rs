@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 
 use smallvec::SmallVec;
 
-use crate::surface::polygon::{self, Segment};
+use crate::direct::EmitterId;
+use crate::geometry::polygon::{self, Segment};
 
 /// Width of the bins that lines are sorted in by their angle, radians, and by their offset, as a share of the patch's
 /// size: lines that could be one are in neighbouring bins.
@@ -14,7 +15,7 @@ const BIN: f64 = 2e-3;
 /// A segment on which the views of some lamps change.
 pub(super) struct Event {
     pub(super) segment: Segment,
-    pub(super) lamps: SmallVec<[u32; 2]>,
+    pub(super) lamps: SmallVec<[EmitterId; 2]>,
     /// What it may carry, at most, W/m².
     pub(super) bound: f64,
 }
@@ -120,7 +121,7 @@ mod tests {
     proptest! {
         #[test]
         fn bins_join_what_a_look_at_all_pairs_does(segments in segments()) {
-            let event = |&segment: &Segment| Event { segment, lamps: smallvec![0], bound: 1.0 };
+            let event = |&segment: &Segment| Event { segment, lamps: smallvec![EmitterId(0)], bound: 1.0 };
             let events = || segments.iter().map(event);
             let binned = joined(events(), 4.0, TOLERANCE);
             let all = joined_one_by_one(events().collect());

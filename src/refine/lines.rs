@@ -7,9 +7,9 @@ use super::events::{Event, joined};
 use super::oracle::Oracle;
 use crate::colour::strength;
 use crate::direct::{EventLine, PatchLight};
+use crate::geometry::polygon::{self, Convex, Segment};
 use crate::light::Optics;
 use crate::mesh::{Crossing, Mesh, Patch, PatchId, Split};
-use crate::surface::polygon::{self, Convex, Segment};
 
 /// How far from a line derivatives are taken, as a share of the patch's size.
 const STEP: f64 = 1.0 / 64.0;

@@ -1,4 +1,6 @@
-//! The oracle: whether interpolation across an element is good enough, and if not, where to divide it.
+//! Refinement: elements are divided where interpolation across them is not good enough.
+//!
+//! [`refine`] is the loop, the [`Oracle`] judges.
 //!
 //! Interpolated values are compared with values evaluated afresh: at the midpoints of the edges, at
 //! the centre, and, for direct light, at probes in between, so that a small shadow is not
@@ -9,10 +11,13 @@ mod sample;
 
 mod oracle;
 
+mod cycles;
+
 mod events;
 mod lines;
 
+pub use cycles::{Refinement, refine};
 pub use level::mean_radiosity;
 pub use lines::{Discontinuity, LineSearch, cut};
-pub use oracle::{Oracle, reason, tolerated_direct};
+pub use oracle::{Oracle, tolerated_direct};
 pub use sample::Sample;

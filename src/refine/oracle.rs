@@ -164,7 +164,7 @@ fn halving(sides: [f64; 2], errors: &Errors, allowed: f64) -> Option<Split> {
 }
 
 /// Why an element is divided like that, by the direct light known at its corners and middle.
-pub fn reason(
+pub(super) fn reason(
     mesh: &Mesh,
     light: &VertexLight,
     element: ElementId,

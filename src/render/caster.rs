@@ -4,8 +4,8 @@ use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 
+use crate::geometry::hierarchy::{hierarchy, ray};
 use crate::reconstruct::TriMesh;
-use crate::visibility::hierarchy::{hierarchy, ray};
 
 /// Growth of the boxes around triangles, as a share of the mesh's size: far above the rounding of
 /// f32, far below a pixel.

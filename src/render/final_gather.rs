@@ -41,17 +41,17 @@ impl<'a> FinalGather<'a> {
     /// Seen, like a vertex, from a hair inside the patch, so that what stands along its border neither
     /// hides it nor leaks light to it.
     pub(super) fn direct(&self, leaf: ElementId, place: DVec3) -> Rgb {
-        let plane = &self.surfaces.list[self.mesh.surface_of(leaf)].plane;
+        let plane = &self.surfaces[self.mesh.surface_of(leaf)].plane;
         let patch = self.mesh[leaf].patch;
         let site = self.mesh.site(patch, plane.flatten(place));
-        self.light.at(patch, site).irradiance
+        self.light.at(patch, site).light.irradiance
     }
 
     /// Diffuse reflectance at a place on a leaf, without the texture's part; none where emission and reflected light
     /// are in one picture, which cannot tell a change of the one from a change of the other.
     pub(super) fn reflectance(&self, leaf: ElementId, place: DVec3) -> Rgb {
-        let surface = &self.surfaces.list[self.mesh.surface_of(leaf)];
-        let material = &self.surfaces.materials[surface.material as usize];
+        let surface = &self.surfaces[self.mesh.surface_of(leaf)];
+        let material = &self.surfaces[surface.material];
         if surface.is_emitter() && material.texture.or(material.emission_texture).is_some() {
             return Rgb::ZERO;
         }

@@ -6,9 +6,10 @@ use std::str::FromStr;
 use glam::DVec3;
 
 use super::limits::{MAX_RADIANCE, tamed};
-use super::{Face, Material, Scene, area_vector};
+use super::{Face, Material, MaterialId, Scene};
 use crate::colour::{LUMENS_PER_WATT, Rgb};
 use crate::error::{Error, Result};
+use crate::geometry::area_vector;
 
 /// How much light a surface emits, written `15`, `17,12,4` or `800lm`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,7 +117,7 @@ impl Scene {
     /// Area from which a material's faces emit, m².
     fn area_of(&self, material: usize) -> f64 {
         let sides = if self.materials[material].double_sided { 2.0 } else { 1.0 };
-        let faces = self.faces.iter().filter(|face| face.material as usize == material);
+        let faces = self.faces.iter().filter(|face| face.material.index() == material);
         sides * faces.map(|face| area_vector(&face.corners(&self.positions)).length()).sum::<f64>()
     }
 
@@ -142,7 +143,7 @@ impl Scene {
         self.positions.extend(rectangle(lamp.centre, lamp.size, normal));
         self.faces.push(Face {
             vertices: (first..first + 4).collect(),
-            material: self.materials.len() as u32,
+            material: MaterialId(self.materials.len() as u32),
             object: self.objects.len() as u32,
             ..Face::default()
         });

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::ray_casting::{ProbeRay, RayCaster};
 use super::sequence::{on_sphere, on_triangle, spread};
-use super::{Face, Light, Scene};
+use super::{Face, Light, MaterialId, Scene};
 
 /// Places that look for the sun, and for the sky, these in so many directions each.
 const SUN_PLACES: usize = 2048;
@@ -14,7 +14,7 @@ const SKY_DIRECTIONS: usize = 64;
 /// One of a scene's materials or objects.
 #[derive(Clone, Copy)]
 enum Surround {
-    Material(u32),
+    Material(MaterialId),
     Object(u32),
 }
 
@@ -38,7 +38,7 @@ impl Scene {
             Surround::Object(_) => "object",
         };
         let (name, mut materials) = match group {
-            Surround::Material(index) => (self.materials[index as usize].name.clone(), vec![index]),
+            Surround::Material(id) => (self[id].name.clone(), vec![id]),
             Surround::Object(index) => {
                 let faces = self.faces.iter().filter(|face| face.object == index);
                 (self.objects[index as usize].clone(), faces.map(|face| face.material).collect())
@@ -46,7 +46,7 @@ impl Scene {
         };
         materials.sort_unstable();
         materials.dedup();
-        let tables = materials.iter().map(|&index| &self.materials[index as usize].name);
+        let tables = materials.iter().map(|&id| &self[id].name);
         let tables: Vec<String> = tables.map(|name| format!("[\"{name}\"]")).collect();
         self.notes.push(format!(
             "{around} \"{name}\" goes round all the rest and keeps sun and sky out; if it is a backdrop, leave it out: \

@@ -3,11 +3,11 @@
 use glam::DVec3;
 
 use super::limits::{MAX_COORDINATE, MAX_RADIANCE};
-use super::polygon::{area_vector, bulge, longest_edge};
 use super::repair::{MIN_AREA, clean};
 use super::{Face, Light, MAX_REFLECTANCE, Material, Scene, Texture};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
+use crate::geometry::{area_vector, bulge, longest_edge};
 
 /// Corners further from a face's plane than this share of its longest edge are a mistake; less is rounding, and the face
 /// is split into triangles.
@@ -56,9 +56,9 @@ impl Scene {
         if let Some(vertex) = face.vertices.iter().find(|&&vertex| vertex as usize >= positions) {
             return Some(format!("has a corner at position {vertex}, of {positions}"));
         }
-        if face.material as usize >= self.materials.len() {
+        if face.material.index() >= self.materials.len() {
             let materials = self.materials.len();
-            return Some(format!("is of material {}, of {materials}", face.material));
+            return Some(format!("is of material {}, of {materials}", face.material.0));
         }
         if area_vector(&face.corners(&self.positions)).try_normalize().is_none() {
             return Some("has no area".to_owned());

@@ -1,9 +1,10 @@
 //! A view of the scene.
 
 use glam::DVec3;
+use serde::Serialize;
 
 /// A perspective view.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Camera {
     /// The file's name for it, empty if it has none.
     pub name: String,

@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 
 use super::Scene;
 use super::notes::note_count;
-use super::polygon::area_vector;
+use crate::geometry::area_vector;
 
 /// Cosine of 0.1°: normals within that angle of the face's own say nothing.
 const SAME_DIRECTION: f64 = 0.999_998_476_9;
@@ -18,7 +18,7 @@ const MAX_UV: f64 = 1e6;
 pub(crate) fn settle_uvs(scene: &mut Scene) {
     let mut unusable = 0;
     for face in &mut scene.faces {
-        let material = &scene.materials[face.material as usize];
+        let material = &scene.materials[face.material.index()];
         if material.texture.is_none() && material.emission_texture.is_none() {
             face.uvs.clear();
         }

@@ -6,9 +6,9 @@ use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
-use super::boxes::{self, Tree, are_close};
 use super::notes::note_count;
 use super::{Face, Scene};
+use crate::geometry::boxes::{self, Tree, are_close};
 
 /// Corners lie in an edge if they are no further from it than this share of its length: coordinates to the
 /// millimetre are off by as much.

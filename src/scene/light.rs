@@ -4,13 +4,14 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use glam::DVec3;
+use serde::Serialize;
 
 use super::photometry::Photometry;
 use crate::colour::{LUMENS_PER_WATT, Rgb};
 
 /// A light from a point or from infinitely far, in radiometric units
 /// (files give candela and lux; see [`crate::colour::LUMENS_PER_WATT`]).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Light {
     /// Shines equally in all directions.
     Point {
@@ -65,7 +66,7 @@ pub enum Light {
 }
 
 /// A light with a name, by which it can be dimmed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NamedLight {
     /// As in the file, or what kind of light it is; several lights may share it.
     pub name: String,
@@ -81,7 +82,7 @@ impl From<Light> for NamedLight {
 }
 
 /// How the radiance of a sky depends on the elevation γ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Sky {
     /// L = E / π everywhere.
     Uniform,

@@ -3,12 +3,12 @@
 use std::ops::Range;
 use std::path::Path;
 
-use super::boxes::local_origin;
 use super::limits::{limit_materials, refuse_huge_coordinates};
 use super::notes::counted;
 use super::{EmissionUnit, LoadOptions, Scene, gltf, obj, ply, repair, settle_sides, stl, up};
 use crate::colour::LUMENS_PER_WATT;
 use crate::error::{Error, Result};
+use crate::geometry::boxes::local_origin;
 
 /// Reads an OBJ (with its MTL), glTF, GLB, STL or PLY file.
 ///

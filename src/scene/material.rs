@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DVec2, Vec3};
+use serde::Serialize;
 
 use super::Texels;
 use crate::colour::Rgb;
@@ -11,7 +12,7 @@ use crate::colour::Rgb;
 pub const MAX_REFLECTANCE: f64 = 0.99;
 
 /// A diffuse material.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Material {
     /// The file's name for it.
     pub name: String,
@@ -44,7 +45,7 @@ impl Default for Material {
 }
 
 /// What a picture shows beyond its borders.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
 pub enum Wrap {
     /// Itself again.
     #[default]
@@ -72,7 +73,7 @@ impl Wrap {
 }
 
 /// How a picture is read between and beyond its texels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
 pub struct Sampler {
     /// Along u and v.
     pub wrap: [Wrap; 2],
@@ -81,7 +82,7 @@ pub struct Sampler {
 }
 
 /// A picture, decoded and as it came.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Texture {
     /// File name or the glTF image's name.
     pub name: String,

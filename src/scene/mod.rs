@@ -15,13 +15,12 @@
 //! | changed by its user | `names`, `adding`, `overrides`, `ies` |
 //! | told of | `notes`, `backdrop` |
 
-pub(crate) mod boxes;
 mod notes;
-mod polygon;
 mod sequence;
 mod text;
 
 mod camera;
+mod ids;
 mod light;
 mod material;
 mod mixed;
@@ -61,6 +60,7 @@ mod overrides;
 pub(crate) use self::gltf::sampler_of;
 pub use adding::{Amount, AreaLight};
 pub use camera::Camera;
+pub use ids::MaterialId;
 pub(crate) use light::SUN_RADIUS;
 pub use light::{DESIGN_SKY, Light, NamedLight, Sky, clear_sun};
 pub use load::load;
@@ -71,7 +71,6 @@ pub(crate) use notes::{counted, note_count};
 pub use options::{EmissionUnit, LoadOptions};
 pub use orientation::{Sides, settle_sides};
 pub use photometry::Photometry;
-pub(crate) use polygon::area_vector;
 pub use texels::Texels;
 pub(crate) use texture::{decode, mean};
 pub use up::Up;

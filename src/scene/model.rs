@@ -1,8 +1,10 @@
 //! The scene itself: polygons in metres, what they look like, and what else the file tells of them.
 
+use super::ids::MaterialId;
 use std::path::PathBuf;
 
 use glam::{DVec2, DVec3, Vec3};
+use serde::Serialize;
 use smallvec::SmallVec;
 
 use super::camera::Camera;
@@ -40,7 +42,7 @@ pub struct Scene {
 }
 
 /// A node of a scene's hierarchy. What it moves is where it belongs already.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Node {
     /// The file's name for it, empty if it has none.
     pub name: String,
@@ -63,8 +65,8 @@ pub struct Face {
     pub uvs: SmallVec<[DVec2; 4]>,
     /// Factors on the material's reflectance, 0..=1 per channel, linear between the corners; empty for 1.
     pub tints: SmallVec<[Vec3; 4]>,
-    /// Index into [`Scene::materials`].
-    pub material: u32,
+    /// Its material.
+    pub material: MaterialId,
     /// Index into [`Scene::objects`].
     pub object: u32,
 }
@@ -79,7 +81,7 @@ impl Face {
 impl Default for Face {
     fn default() -> Self {
         let (vertices, normals, uvs) = (SmallVec::new(), SmallVec::new(), SmallVec::new());
-        Self { vertices, normals, uvs, tints: SmallVec::new(), material: 0, object: 0 }
+        Self { vertices, normals, uvs, tints: SmallVec::new(), material: MaterialId(0), object: 0 }
     }
 }
 
@@ -98,6 +100,12 @@ impl Scene {
         self.bounds().map_or(0.0, |(low, high)| low.distance(high))
     }
 
+    /// Adds a material.
+    pub fn add_material(&mut self, material: Material) -> MaterialId {
+        self.materials.push(material);
+        MaterialId(self.materials.len() as u32 - 1)
+    }
+
     /// A texture of the same picture as one that there is, read by another sampler.
     pub(super) fn add_texture_like(&mut self, known: u32, sampler: Sampler) -> u32 {
         let texture = Texture { sampler, ..self.textures[known as usize].clone() };
@@ -108,14 +116,14 @@ impl Scene {
     /// Drops the faces of some materials; tells how many.
     pub(super) fn leave_out(&mut self, materials: &[usize]) -> usize {
         let before = self.faces.len();
-        self.faces.retain(|face| !materials.contains(&(face.material as usize)));
+        self.faces.retain(|face| !materials.contains(&(face.material.index())));
         before - self.faces.len()
     }
 
     /// Indices of the faces whose material emits light.
     pub fn emitters(&self) -> impl Iterator<Item = usize> {
         self.faces.iter().enumerate().filter_map(|(index, face)| {
-            let material = self.materials.get(face.material as usize)?;
+            let material = self.materials.get(face.material.index())?;
             (material.emission.max_element() > 0.0).then_some(index)
         })
     }

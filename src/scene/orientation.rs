@@ -148,7 +148,7 @@ fn rays_of_faces(
     count: usize,
 ) -> (Vec<ProbeRay>, Vec<ProbeRay>) {
     let power = |&face: &u32| {
-        let material = &scene.materials[scene.faces[face as usize].material as usize];
+        let material = &scene[scene.faces[face as usize].material];
         luminance(material.emission)
     };
     let lamps: Vec<(f64, [DVec3; 3])> = caster

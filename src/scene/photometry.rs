@@ -3,11 +3,12 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
+use serde::Serialize;
 
 /// The luminous intensities of a luminaire in C-planes (type C photometry), linear between angles.
 ///
 /// Vertical angles are from straight down, horizontal ones counter-clockwise seen from above.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Photometry {
     /// What the file calls it.
     pub name: String,

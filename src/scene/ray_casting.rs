@@ -4,8 +4,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::Scene;
-use super::boxes::{self, Aabb, Tree};
-use super::polygon::{area_vector, flattened, triangulate};
+use crate::geometry::boxes::{self, Aabb, Tree};
+use crate::geometry::{area_vector, flattened, triangulate};
 
 /// A line from a point onwards.
 #[derive(Clone, Copy, Debug)]
@@ -84,7 +84,7 @@ impl<'a> RayCaster<'a> {
         let crossings = self.crossings(ray).into_iter();
         let nearest = crossings.min_by(|a, b| a.distance.total_cmp(&b.distance))?;
         let face = &self.scene.faces[nearest.face as usize];
-        let material = &self.scene.materials[face.material as usize];
+        let material = &self.scene[face.material];
         Some(FaceHit {
             distance: nearest.distance,
             front: nearest.front || material.double_sided,

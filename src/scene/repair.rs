@@ -11,11 +11,11 @@ use smallvec::SmallVec;
 
 use super::corners::{settle_normals, settle_uvs};
 use super::notes::note_count;
-use super::polygon::{
-    area_vector, bulge, flattened, is_affine, is_simple, longest_edge, triangulate,
-};
 use super::weld::weld_rounded;
 use super::{Face, Scene, junctions};
+use crate::geometry::{
+    area_vector, bulge, flattened, is_affine, is_simple, longest_edge, triangulate,
+};
 
 /// Faces of less area, as a share of their longest edge squared, are dropped.
 pub(super) const MIN_AREA: f64 = 1e-12;

@@ -10,7 +10,7 @@ use glam::{DVec3, Vec3};
 use smallvec::SmallVec;
 
 use super::text::{decoded, keyword, lines, numbers};
-use super::{Face, Material, Scene};
+use super::{Face, Material, MaterialId, Scene};
 use crate::error::{Error, Result};
 
 /// Bytes before the triangles of a binary file, and of each of them.
@@ -113,6 +113,11 @@ impl Solids {
             [self.scene.positions.len(), self.scene.objects.len() - 1].map(|n| n as u32);
         self.scene.positions.extend_from_slice(corners);
         let vertices: SmallVec<[u32; 4]> = (first..first + corners.len() as u32).collect();
-        self.scene.faces.push(Face { vertices, material: index, object: index, ..Face::default() });
+        self.scene.faces.push(Face {
+            vertices,
+            material: MaterialId(index),
+            object: index,
+            ..Face::default()
+        });
     }
 }

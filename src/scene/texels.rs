@@ -2,15 +2,17 @@
 
 use std::sync::{Arc, LazyLock};
 
+use serde::Serialize;
+
 use crate::colour::linear_from_srgb;
 
 /// Linear RGB, row by row from the top; a copy takes no memory of its own.
 ///
 /// What came in 8 bits a channel takes three bytes a texel, all else twelve.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Texels(Kept);
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 enum Kept {
     /// In sRGB, three bytes a texel.
     Coded(Arc<Vec<u8>>),

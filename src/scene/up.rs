@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 
 use super::notes::listed;
-use super::{Light, NamedLight, Scene, area_vector};
+use super::{Light, NamedLight, Scene};
+use crate::geometry::area_vector;
 
 /// The axis of a file that points up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -72,7 +73,7 @@ pub(super) fn note_standing_floors(scene: &mut Scene, up: Up) {
     let (mut all, mut across) = (0.0, 0.0);
     let mut names = BTreeSet::new();
     for face in &scene.faces {
-        let material = &scene.materials[face.material as usize].name;
+        let material = &scene[face.material].name;
         let object = scene.objects.get(face.object as usize);
         let is_level = |name: &&String| {
             let name = name.to_lowercase();

@@ -12,10 +12,10 @@ use smallvec::SmallVec;
 use super::context::Context;
 use super::sources::{HOT, capped_power, quarters};
 use crate::colour::{Rgb, strength};
-use crate::direct::Outlook;
+use crate::direct::{Evaluated, Outlook, WorkCounters};
+use crate::geometry::area_vector;
 use crate::light::{ElementLight, VertexLight, mean};
 use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
-use crate::scene::area_vector;
 
 /// A patch with a lamp nearer than this many of its sizes is lit unevenly.
 const NEAR: f64 = 2.0;
@@ -39,7 +39,7 @@ pub(super) fn arrival(
     vertices: &VertexLight,
     light: &ElementLight,
     error: f64,
-) -> Vec<Rgb> {
+) -> (Vec<Rgb>, WorkCounters) {
     let numbers: Vec<PatchId> = (0..mesh.patches.len() as u32).map(PatchId).collect();
     let on = |&patch: &PatchId| {
         let whole = &mesh[patch];
@@ -50,13 +50,12 @@ pub(super) fn arrival(
             !matters && (error.is_infinite() || !outlook.is_near(mesh, NEAR * whole.area.sqrt()))
         };
         if context.optics.reflects(patch) || context.groups.holds(patch) || is_even() {
-            return known;
+            return (known, WorkCounters::default());
         }
-        let part =
-            PatchPart { corners: whole.corners.iter().copied().collect(), outlook: &outlook };
-        part.integral(part.power(), error, 0)
+        PatchPart::new(whole.corners.iter().copied(), &outlook).integral(error)
     };
-    numbers.par_iter().map(on).collect()
+    let (arriving, work): (Vec<Rgb>, Vec<WorkCounters>) = numbers.par_iter().map(on).unzip();
+    (arriving, work.into_iter().sum())
 }
 
 /// Mean direct irradiance, W/m², of those of the leaves on which it is so steep that vertices misjudge it.
@@ -65,7 +64,7 @@ pub(super) fn steep_means(
     mesh: &Mesh,
     vertices: &VertexLight,
     leaves: &[ElementId],
-) -> BTreeMap<ElementId, Rgb> {
+) -> (BTreeMap<ElementId, Rgb>, WorkCounters) {
     let error = ERROR * counting_power(mesh, vertices, leaves);
     let mean = |&leaf: &ElementId| {
         let element = &mesh[leaf];
@@ -75,13 +74,14 @@ pub(super) fn steep_means(
             return None;
         }
         let plane = mesh.plane(element.patch);
-        let corners = element.corners.iter().map(|&v| plane.lift(mesh[v].position)).collect();
+        let corners = element.corners.iter().map(|&v| plane.lift(mesh[v].position));
         let outlook = context.light.on(element.patch);
-        let part = PatchPart { corners, outlook: &outlook };
-        Some((leaf, part.integral(part.power(), error, 0) / element.area))
+        let (power, work) = PatchPart::new(corners, &outlook).integral(error);
+        Some(((leaf, power / element.area), work))
     };
-    let found: Vec<Option<(ElementId, Rgb)>> = leaves.par_iter().map(mean).collect();
-    found.into_iter().flatten().collect()
+    let found: Vec<_> = leaves.par_iter().filter_map(mean).collect();
+    let (means, work): (BTreeMap<_, _>, Vec<WorkCounters>) = found.into_iter().unzip();
+    (means, work.into_iter().sum())
 }
 
 /// What arrives on leaves, W, without most of what is shut in: of a lamp that faces a ceiling closely, what lights the
@@ -121,37 +121,44 @@ fn is_uneven(mesh: &Mesh, light: &VertexLight, patch: PatchId) -> bool {
     strengths.iter().any(|&here| here < (1.0 - UNEVEN) * most)
 }
 
-/// A convex part of a patch.
+/// A convex part of a patch, and what arrives in its middle for all of it.
 struct PatchPart<'a> {
     corners: SmallVec<[DVec3; 4]>,
     outlook: &'a Outlook<'a>,
+    /// W.
+    power: Rgb,
+    work: WorkCounters,
 }
 
-impl PatchPart<'_> {
-    fn centre(&self) -> DVec3 {
-        self.corners.iter().sum::<DVec3>() / self.corners.len() as f64
+impl<'a> PatchPart<'a> {
+    fn new(corners: impl Iterator<Item = DVec3>, outlook: &'a Outlook<'a>) -> Self {
+        let corners: SmallVec<[DVec3; 4]> = corners.collect();
+        let Evaluated { light, work } = outlook.at(centre(&corners));
+        let power = light.irradiance * area_vector(&corners).length();
+        Self { corners, outlook, power, work }
     }
 
-    /// What arrives in its middle for all of it, W.
-    fn power(&self) -> Rgb {
-        self.outlook.at(self.centre()).irradiance * area_vector(&self.corners).length()
+    /// What arrives on it, W, right to about the `error` given, and what it took.
+    fn integral(&self, error: f64) -> (Rgb, WorkCounters) {
+        let mut work = self.work;
+        let power = self.refined(error, 0, &mut work);
+        (power, work)
     }
 
-    fn parts(&self) -> impl Iterator<Item = Self> {
-        let parts = quarters(&self.corners, self.centre(), DVec3::midpoint);
-        parts.map(|corners| Self { corners: corners.into(), outlook: self.outlook })
-    }
-
-    /// What arrives on it, W, if it seems to be `power`; right to about the `error` given.
-    fn integral(&self, power: Rgb, error: f64, level: u32) -> Rgb {
-        let parts: SmallVec<[Self; 4]> = self.parts().collect();
-        let powers: SmallVec<[Rgb; 4]> = parts.iter().map(Self::power).collect();
-        let sum: Rgb = powers.iter().sum();
+    fn refined(&self, error: f64, level: u32, work: &mut WorkCounters) -> Rgb {
+        let quarters = quarters(&self.corners, centre(&self.corners), DVec3::midpoint);
+        let parts: SmallVec<[Self; 4]> =
+            quarters.map(|corners| Self::new(corners.into_iter(), self.outlook)).collect();
+        *work += parts.iter().map(|part| part.work).sum();
+        let sum: Rgb = parts.iter().map(|part| part.power).sum();
         let [least, most] = LEVELS;
-        if level >= most || level >= least && strength(sum - power) <= error {
+        if level >= most || level >= least && strength(sum - self.power) <= error {
             return sum;
         }
-        let each = parts.iter().zip(powers);
-        each.map(|(part, power)| part.integral(power, error, level + 1)).sum()
+        parts.iter().map(|part| part.refined(error, level + 1, work)).sum()
     }
+}
+
+fn centre(corners: &[DVec3]) -> DVec3 {
+    corners.iter().sum::<DVec3>() / corners.len() as f64
 }

@@ -6,29 +6,31 @@
 
 use std::ops::ControlFlow;
 
+use serde::Serialize;
+
 use super::checkpoint::Checkpoint;
 use super::context::Context;
-use super::direct_pass;
 use super::groups::Groups;
 use super::interpolate::{REFLECTED, interpolate};
 use super::interreflection::Interreflection;
-use super::lit_mesh::LitMesh;
+use super::lit_mesh::VertexLighting;
 use super::observer::Observer;
 use super::power_balance::PowerBalance;
 use super::solution::{Progress, Solution};
 use super::start::{DARK, check_reflectances, lamps_on};
-use super::stop::Stop;
+use super::stop::{Cancellation, Stop};
 use super::work::Work;
+use super::{direct_light, direct_pass};
 use crate::colour::Rgb;
 use crate::direct::PatchLight;
 use crate::error::{Error, Result};
-use crate::light::{Direct, ElementLight, Optics, VertexLight};
+use crate::light::{Direct, ElementLight, Optics};
 use crate::mesh::{Mesh, VertexId};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 
 /// A scene in which one group of lights alone shines, see [`Surfaces::lit_by`].
-#[derive(Debug)]
+#[derive(Debug, Serialize)]
 pub struct ScaledLight {
     /// The surfaces, lit by that group alone, at a strength of 1.
     pub surfaces: Surfaces,
@@ -56,7 +58,7 @@ pub fn solve_by_light(
     scenes: &[ScaledLight],
     settings: &Settings,
     checkpoint: &mut Checkpoint,
-    mut observe: impl FnMut(&Progress) -> ControlFlow<()>,
+    mut observe: impl FnMut(&Progress) -> ControlFlow<Cancellation>,
 ) -> Result<(Solution, Vec<Solution>)> {
     let Some(ScaledLight { surfaces: first, .. }) = scenes.first() else {
         return Err(Error::Scene(DARK.to_owned()));
@@ -70,31 +72,27 @@ pub fn solve_by_light(
         .map(|scaled| Alone::new(&scaled.surfaces, settings, &mut observer))
         .collect::<Result<_>>()?;
     let mut mesh = Mesh::new(first, settings);
-    let mut lights = vec![VertexLight::default(); alone.len()];
-    for (alone, light) in alone.iter().zip(&mut lights) {
-        let lit = &mut LitMesh { mesh: &mut mesh, light };
-        direct_pass::refine(alone.context(), settings, lit, &mut observer);
+    let mut lights: Vec<VertexLighting> = alone.iter().map(Alone::lighting).collect();
+    for (alone, lighting) in alone.iter().zip(&mut lights) {
+        direct_pass::refine(alone.context(), settings, &mut lighting.on(&mut mesh), &mut observer);
     }
     let mut exchanges = Vec::new();
-    for (alone, light) in alone.iter().zip(&mut lights) {
-        let (context, lit) = (alone.context(), &mut LitMesh { mesh: &mut mesh, light });
-        direct_pass::light_leaves(context, lit, &mut observer);
+    for (alone, lighting) in alone.iter().zip(&mut lights) {
+        let (context, lit) = (alone.context(), &mut lighting.on(&mut mesh));
+        direct_light::light_leaves(context, lit, &mut observer);
         let mut exchange =
             Interreflection::new(context, settings, lit.mesh, lit.light, &mut observer)?;
         exchange.reach_vertices(context, settings, lit, &mut observer);
         exchanges.push(exchange);
     }
-    let finish = |((alone, mut light), exchange): ((&Alone<'_>, VertexLight), Interreflection)| {
-        let mut mesh = mesh.clone();
-        direct_pass::light_leaves(
-            alone.context(),
-            &mut LitMesh { mesh: &mut mesh, light: &mut light },
-            &mut observer,
-        );
-        // It has done without the elements that other lights asked for later.
-        interpolate(&mesh, &mut light, REFLECTED);
-        exchange.solution(mesh, alone.optics.clone(), light)
-    };
+    let finish =
+        |((alone, mut lighting), exchange): ((&Alone<'_>, VertexLighting), Interreflection)| {
+            let mut mesh = mesh.clone();
+            direct_light::light_leaves(alone.context(), &mut lighting.on(&mut mesh), &mut observer);
+            // It has done without the elements that other lights asked for later.
+            interpolate(&mesh, &mut lighting.light, REFLECTED);
+            exchange.solution(mesh, alone.optics.clone(), lighting)
+        };
     let solutions: Vec<Solution> = alone.iter().zip(lights).zip(exchanges).map(finish).collect();
     let strengths: Vec<Rgb> = scenes.iter().map(|scaled| scaled.strength).collect();
     Ok((sum(&solutions, &strengths), solutions))
@@ -113,6 +111,11 @@ impl<'a> Alone<'a> {
         let lamps = lamps_on(surfaces, settings, &mesh, observer)?;
         let groups = Groups::new(surfaces, settings, &mesh);
         Ok(Self { surfaces, lamps, groups, optics })
+    }
+
+    /// None yet.
+    fn lighting(&self) -> VertexLighting {
+        VertexLighting { work: self.lamps.work(), ..VertexLighting::default() }
     }
 
     fn context(&self) -> Context<'_> {

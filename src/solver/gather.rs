@@ -123,7 +123,7 @@ impl<'a> Gatherer<'a> {
     /// Evaluates indirect light at those of the vertices that lack it.
     pub(super) fn light(
         &mut self,
-        LitMesh { mesh, light }: &mut LitMesh<'_>,
+        LitMesh { mesh, light, .. }: &mut LitMesh<'_>,
         vertices: impl IntoIterator<Item = VertexId>,
         observer: &mut Observer<'_>,
     ) {
@@ -158,7 +158,7 @@ impl<'a> Gatherer<'a> {
     /// of those that see much of what has changed, and of all that were interpolated.
     pub(super) fn replace_sources(
         &mut self,
-        LitMesh { mesh, light }: &mut LitMesh<'_>,
+        LitMesh { mesh, light, .. }: &mut LitMesh<'_>,
         sources: Sources<'a>,
     ) {
         let before = std::mem::replace(&mut self.sources, sources);
@@ -214,7 +214,7 @@ impl<'a> Gatherer<'a> {
     ) -> Vec<Gathered> {
         let turn = turn(gather_point.vertices[0].index() as f64);
         let point = SurfacePoint::new(gather_point.eye, gather_point.normal);
-        let normal = |v: VertexId| self.surfaces.list[mesh[v].surface as usize].plane.normal;
+        let normal = |v: VertexId| self.surfaces[mesh[v].surface].plane.normal;
         if gather_point.vertices.len() == 1 {
             let mut irradiance = Rgb::ZERO;
             let (view, factors) =
@@ -248,7 +248,7 @@ impl<'a> Gatherer<'a> {
         let is_whole = |patch: PatchId| !self.groups.holds(patch);
         let is_plain = |patch: PatchId| is_whole(patch) && !self.glares[patch.index()];
         for sight in hemicube.visible_patches_of(is_plain).filter(|sight| sight.front) {
-            factors += self.receive(mesh, hemicube, sight, arrive);
+            factors += self.receive(mesh, hemicube, &sight, arrive);
             if sight.delta > WIDE {
                 view.push((sight.patch, sight.delta));
             }
@@ -281,7 +281,7 @@ impl<'a> Gatherer<'a> {
         &self,
         mesh: &Mesh,
         hemicube: &Hemicube<'_>,
-        sight: VisiblePatch,
+        sight: &VisiblePatch,
         arrive: &mut impl FnMut(&IncidentLight<'_>),
     ) -> u64 {
         let (plane, eye) = (mesh.plane(sight.patch), hemicube.eye());
@@ -301,11 +301,7 @@ impl<'a> Gatherer<'a> {
                 open.extend_from_slice(parts);
                 continue;
             }
-            let visible = match sight.visible {
-                1.0 => 1.0,
-                visible if source == root => visible,
-                _ => hemicube.visible_share(sight.patch, &corners),
-            };
+            let visible = hemicube.visible_share(sight, (source != root).then_some(&corners[..]));
             if varies {
                 let piece = self.sources.piece(mesh, source);
                 let (light, count) = self.piece_light(eye, &piece, factor, DEEPEST);

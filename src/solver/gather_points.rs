@@ -8,8 +8,8 @@ use smallvec::SmallVec;
 use super::groups::Groups;
 use crate::colour::Rgb;
 use crate::form_factor::contour::vector_to_polygon;
+use crate::geometry::Weld;
 use crate::mesh::{Mesh, VertexId};
-use crate::surface::Weld;
 use crate::visibility::SurfacePoint;
 
 /// How high over facets a gathering point is, in tolerances: well above ridges that it is a hair away from.

@@ -13,8 +13,9 @@ use super::gather_points::IncidentLight;
 use super::sources::{RadiosityPiece, Sources};
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon;
+use crate::geometry::HalfSpace;
 use crate::mesh::{ElementId, Mesh, PatchId};
-use crate::visibility::{HalfSpace, Occluders, SurfacePoint};
+use crate::visibility::{Occluders, SurfacePoint};
 
 /// Radiosity that varies by more than this many times the mean of the scene glares.
 const GLARING: f64 = 4.0;

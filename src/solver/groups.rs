@@ -9,9 +9,10 @@
 
 use glam::DVec3;
 
+use crate::geometry::Weld;
 use crate::mesh::{ElementId, Mesh, Patch, PatchId};
 use crate::settings::Settings;
-use crate::surface::{Surfaces, Weld};
+use crate::surface::Surfaces;
 
 /// Surfaces not longer than this share of a patch's longest side are facets.
 const SMALL: f64 = 0.5;
@@ -39,7 +40,7 @@ impl Groups {
         let size = settings.patch_length(surfaces.extent);
         let facets: Vec<bool> =
             surfaces.list.iter().map(|surface| surface.extent() <= SMALL * size).collect();
-        let is_facet = |patch: &Patch| facets[patch.surface as usize];
+        let is_facet = |patch: &Patch| facets[patch.surface.index()];
         let corners = FacetCorners::new(mesh, is_facet, surfaces.tolerance);
         let of = vec![u32::MAX; mesh.patches.len()];
         let mut groups = Self { members: Vec::new(), of, places: Vec::new() };

@@ -1,9 +1,9 @@
 //! Light at vertices where it was not evaluated, from those where it was.
 
 use crate::colour::Rgb;
+use crate::geometry::polygon::distance;
 use crate::light::{Direct, VertexLight};
 use crate::mesh::{ElementId, Mesh, VertexId};
-use crate::surface::polygon::distance;
 
 /// One kind of light: what of it is known at a vertex, and what is to be.
 #[derive(Clone, Copy)]

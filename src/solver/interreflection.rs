@@ -3,17 +3,18 @@
 use super::context::Context;
 use super::gather::Gatherer;
 use super::interpolate::{REFLECTED, interpolate};
-use super::lit_mesh::LitMesh;
+use super::lit_mesh::{LitMesh, VertexLighting};
 use super::observer::Observer;
 use super::power_balance::PowerBalance;
-use super::progressive::Shooting;
+use super::progressive::{Shooting, State};
 use super::relaxation::RelaxationStep;
 use super::solution::Solution;
 use super::sources::Sources;
 use super::stop::Stop;
 use super::work::Work;
-use super::{direct_pass, indirect_pass};
+use super::{direct_light, indirect_pass};
 use crate::colour::Rgb;
+use crate::direct::WorkCounters;
 use crate::error::Result;
 use crate::light::{ElementLight, Optics, VertexLight};
 use crate::mesh::{Mesh, VertexId};
@@ -32,7 +33,10 @@ pub(super) struct Interreflection {
     shots: usize,
     /// Hemicubes looked through: over patches, and over vertices.
     hemicubes: [usize; 2],
-    work: Work,
+    /// What it took to find out how much direct light arrives.
+    direct_work: WorkCounters,
+    /// Factors from a point to a polygon: of the exchange, and of gathering.
+    factors: [u64; 2],
     ambient: Rgb,
     history: Vec<RelaxationStep>,
 }
@@ -48,16 +52,17 @@ impl Interreflection {
         let mut shooting = Shooting::new(context, settings, mesh, vertices, observer);
         let (stop, history) = shooting.run(settings)?;
         let mut light = std::mem::take(&mut shooting.light);
-        light.settle(mesh, &shooting.received);
+        light.settle(mesh, &shooting.state.received);
         let ambient = if stop == Stop::Converged {
             light.scale_to_the_rest(mesh, shooting.ambient());
             Rgb::ZERO
         } else {
             shooting.ambient_of_the_rest()
         };
-        let Shooting { energy, shots, hemicubes, factors, .. } = shooting;
-        let work = Work::new(context.light.lamps(), factors);
-        Ok(Self { light, energy, stop, shots, hemicubes: [hemicubes, 0], work, ambient, history })
+        let direct_work = shooting.direct_work;
+        let State { energy, shots, hemicubes, factors, .. } = shooting.state;
+        let (hemicubes, factors) = ([hemicubes, 0], [factors, 0]);
+        Ok(Self { light, energy, stop, shots, hemicubes, direct_work, factors, ambient, history })
     }
 
     /// Brings the light to the vertices: gathered, if all has been exchanged.
@@ -73,8 +78,6 @@ impl Interreflection {
         } else {
             self.spread(lit.mesh, lit.light);
         }
-        let Work { exchange, gathering, .. } = self.work;
-        self.work = Work { gathering, ..Work::new(context.light.lamps(), exchange) };
     }
 
     /// Gathers the light at vertices, and refines the mesh to it.
@@ -92,8 +95,8 @@ impl Interreflection {
         let mut gatherer = Gatherer::new(context.to_gather(), settings, lit.mesh, sources, level);
         for round in 1..=ROUNDS {
             indirect_pass::refine(settings, &oracle, &mut gatherer, lit, observer);
-            direct_pass::light_leaves(context, lit, observer);
-            if observer.flow.is_break() {
+            direct_light::light_leaves(context, lit, observer);
+            if observer.is_over() {
                 break;
             }
             if round < ROUNDS {
@@ -101,13 +104,13 @@ impl Interreflection {
                 gatherer.replace_sources(lit, Sources::of_vertices(lit.mesh, optics, lit.light));
             }
         }
-        if observer.flow.is_break() {
-            self.stop = Stop::Cancelled;
+        if observer.is_over() {
+            self.stop = observer.stop();
             self.give_corners(lit.mesh, lit.light);
         }
         interpolate(lit.mesh, lit.light, REFLECTED);
         self.hemicubes[1] = gatherer.gathered;
-        self.work.gathering = gatherer.factors;
+        self.factors[1] = gatherer.factors;
     }
 
     /// The solution that this comes to, with this light at the vertices of the mesh.
@@ -115,14 +118,17 @@ impl Interreflection {
         self,
         mesh: Mesh,
         optics: Optics,
-        vertex_light: VertexLight,
+        VertexLighting { light: vertex_light, work }: VertexLighting,
     ) -> Solution {
-        let Self { light, energy, stop, shots, hemicubes, work, ambient, history } = self;
+        let Self { energy, stop, shots, hemicubes, factors, ambient, history, .. } = self;
+        let WorkCounters { evaluations: direct, rays } = work + self.direct_work;
+        let [exchange, gathering] = factors;
+        let work = Work { direct, exchange, gathering, rays };
         Solution {
+            light: ElementLight::of_vertices(&mesh, &vertex_light),
             mesh,
             optics,
             vertex_light,
-            light,
             energy,
             stop,
             shots,

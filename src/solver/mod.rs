@@ -28,6 +28,8 @@ mod start;
 mod arrival;
 mod unfinished;
 
+mod direct_light;
+
 mod direct_pass;
 
 mod links;
@@ -51,7 +53,7 @@ mod work_plane;
 use std::ops::ControlFlow;
 
 use crate::error::Result;
-use crate::light::{Optics, VertexLight};
+use crate::light::Optics;
 use crate::mesh::Mesh;
 use crate::settings::Settings;
 use crate::surface::Surfaces;
@@ -62,14 +64,14 @@ pub use power_balance::PowerBalance;
 pub use probe::{Reading, read};
 pub use solution::{Phase, Progress, Solution};
 pub(crate) use sources::level;
-pub use stop::Stop;
+pub use stop::{Cancellation, Stop};
 pub use work::Work;
 pub use work_plane::{Evenness, WorkPlane};
 
 use context::Context;
 use groups::Groups;
 use interreflection::Interreflection;
-use lit_mesh::LitMesh;
+use lit_mesh::VertexLighting;
 use observer::Observer;
 use start::{check_reflectances, lamps_on};
 
@@ -82,7 +84,7 @@ use start::{check_reflectances, lamps_on};
 pub fn solve(
     surfaces: &Surfaces,
     settings: &Settings,
-    observe: impl FnMut(&Progress) -> ControlFlow<()>,
+    observe: impl FnMut(&Progress) -> ControlFlow<Cancellation>,
 ) -> Result<Solution> {
     solve_with(surfaces, settings, Plan::default(), observe).map(|(solution, _)| solution)
 }
@@ -108,7 +110,7 @@ pub fn solve_with(
     surfaces: &Surfaces,
     settings: &Settings,
     plan: Plan<'_>,
-    mut observe: impl FnMut(&Progress) -> ControlFlow<()>,
+    mut observe: impl FnMut(&Progress) -> ControlFlow<Cancellation>,
 ) -> Result<(Solution, Vec<Solution>)> {
     surfaces.check()?;
     settings.validate()?;
@@ -118,18 +120,19 @@ pub fn solve_with(
     let checkpoint = checkpoint.unwrap_or(&mut nowhere);
     let settings = &checkpoint.settings(settings);
     let mut observer = Observer::new(&mut observe, checkpoint);
-    let (mut mesh, mut light) = (Mesh::new(surfaces, settings), VertexLight::default());
+    let mut mesh = Mesh::new(surfaces, settings);
     let optics = Optics::new(surfaces, &mesh);
     check_reflectances(surfaces, &mesh, &optics)?;
     let lamps = lamps_on(surfaces, settings, &mesh, &mut observer)?;
     let groups = Groups::new(surfaces, settings, &mesh);
     let context = Context::new(surfaces, &optics, &lamps, &groups);
 
-    let lit = &mut LitMesh { mesh: &mut mesh, light: &mut light };
+    let mut lighting = VertexLighting { work: lamps.work(), ..VertexLighting::default() };
+    let lit = &mut lighting.on(&mut mesh);
     direct_pass::refine(context, settings, lit, &mut observer);
-    direct_pass::light_leaves(context, lit, &mut observer);
+    direct_light::light_leaves(context, lit, &mut observer);
     let stages = stages::stages(context, settings, lit, stages, &mut observer)?;
     let mut exchange = Interreflection::new(context, settings, lit.mesh, lit.light, &mut observer)?;
     exchange.reach_vertices(context, settings, lit, &mut observer);
-    Ok((exchange.solution(mesh, optics, light), stages))
+    Ok((exchange.solution(mesh, optics, lighting), stages))
 }

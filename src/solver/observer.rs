@@ -8,36 +8,47 @@ use serde::de::DeserializeOwned;
 
 use super::checkpoint::Checkpoint;
 use super::solution::{Phase, Progress};
+use super::stop::{Cancellation, Stop};
 use crate::watch::{Enough, Pace, in_batches, watched};
 
 /// Tells a caller how far things are, and remembers if it has had enough.
 ///
 /// What is done after that is a makeshift, which the checkpoint neither knows nor keeps.
 pub(super) struct Observer<'a> {
-    observe: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    observe: &'a mut dyn FnMut(&Progress) -> ControlFlow<Cancellation>,
     told: Progress,
     /// How much more of the phase is done once what is under way is.
     part: f64,
-    pub(super) flow: ControlFlow<()>,
+    cancelled: Option<Cancellation>,
     pub(super) checkpoint: &'a mut Checkpoint,
 }
 
 impl<'a> Observer<'a> {
     pub(super) fn new(
-        observe: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>,
+        observe: &'a mut dyn FnMut(&Progress) -> ControlFlow<Cancellation>,
         checkpoint: &'a mut Checkpoint,
     ) -> Self {
         let told = Progress { phase: Phase::Lamps, done: 0.0 };
-        Self { observe, told, part: 0.0, flow: ControlFlow::Continue(()), checkpoint }
+        Self { observe, told, part: 0.0, cancelled: None, checkpoint }
     }
 
     pub(super) fn tell(&mut self, phase: Phase, done: f64) -> ControlFlow<()> {
         self.told = Progress { phase, done: done.clamp(0.0, 1.0) };
         self.part = 0.0;
-        if self.flow.is_continue() {
-            self.flow = (self.observe)(&self.told);
+        if self.cancelled.is_none() {
+            self.cancelled = (self.observe)(&self.told).break_value();
         }
-        self.flow
+        if self.is_over() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// Whether the caller has had enough.
+    pub(super) fn is_over(&self) -> bool {
+        self.cancelled.is_some()
+    }
+
+    /// Why to stop, once the caller has had enough.
+    pub(super) fn stop(&self) -> Stop {
+        Stop::Cancelled(self.cancelled.unwrap_or(Cancellation::Caller))
     }
 
     /// Begins a part of a phase: what is evaluated or mapped next leads from its start to its end.
@@ -70,7 +81,7 @@ impl<'a> Observer<'a> {
                 None => {
                     let (batch, start) = (pace.batch(rest), Instant::now());
                     let result = watched(|enough| work(batch, enough), || tell(self, done));
-                    if self.flow.is_break() {
+                    if self.is_over() {
                         break;
                     }
                     pace.learn(batch.len(), start.elapsed());

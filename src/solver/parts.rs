@@ -60,7 +60,7 @@ impl Shot<'_, '_> {
         row.escaped += hemicube.escaping() * share;
         for sight in hemicube.visible_patches_of(|patch| !groups.holds(patch)) {
             if sight.front {
-                self.link(sight, row);
+                self.link(&sight, row);
             } else {
                 row.on_backs += sight.delta * share;
             }
@@ -73,10 +73,10 @@ impl Shot<'_, '_> {
     }
 
     /// Links the speaker with the elements of a patch, fine enough for their distance.
-    fn link(&self, VisiblePatch { patch, visible, .. }: VisiblePatch, row: &mut Row) {
+    fn link(&self, sight: &VisiblePatch, row: &mut Row) {
         let mesh = self.mesh;
-        let plane = mesh.plane(patch);
-        let root = mesh[patch].root;
+        let plane = mesh.plane(sight.patch);
+        let root = mesh[sight.patch].root;
         let mut open: SmallVec<[ElementId; 32]> = SmallVec::new();
         open.push(root);
         while let Some(receiver) = open.pop() {
@@ -89,11 +89,8 @@ impl Shot<'_, '_> {
                 open.extend_from_slice(parts);
                 continue;
             }
-            let visible = match visible {
-                1.0 => 1.0,
-                visible if receiver == root => visible,
-                _ => self.hemicube.visible_share(patch, &corners),
-            };
+            let part = (receiver != root).then_some(&corners[..]);
+            let visible = self.hemicube.visible_share(sight, part);
             let factor = point_to_polygon(self.eye.position, self.eye.normal, &corners);
             row.factors += 1;
             self.add(receiver, factor * visible, row);

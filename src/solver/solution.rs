@@ -17,7 +17,7 @@ pub struct Solution {
     pub optics: Optics,
     /// Light at its vertices.
     pub vertex_light: VertexLight,
-    /// Light on the elements that there were when reflected light was exchanged, constant over each.
+    /// Mean light on all elements, from that at the vertices.
     pub light: ElementLight,
     /// Where the emitted power has gone.
     pub energy: PowerBalance,

@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use super::interreflection::Interreflection;
-use super::lit_mesh::LitMesh;
+use super::lit_mesh::{LitMesh, VertexLighting};
 use super::observer::Observer;
 use super::solution::Solution;
 use super::stop::Stop;
@@ -16,7 +16,7 @@ use crate::settings::Settings;
 pub(super) fn stages(
     context: Context<'_>,
     settings: &Settings,
-    LitMesh { mesh, light }: &LitMesh<'_>,
+    LitMesh { mesh, light, work }: &LitMesh<'_>,
     shots: &[usize],
     observer: &mut Observer<'_>,
 ) -> Result<Vec<Solution>> {
@@ -35,7 +35,8 @@ pub(super) fn stages(
         if exchange.stop == Stop::ShotLimit {
             let (mesh, mut light) = (Mesh::clone(mesh), VertexLight::clone(light));
             exchange.spread(&mesh, &mut light);
-            stages.push(exchange.solution(mesh, context.optics.clone(), light));
+            let lighting = VertexLighting { light, work: **work };
+            stages.push(exchange.solution(mesh, context.optics.clone(), lighting));
         }
     }
     *observer.checkpoint = checkpoint;

@@ -43,7 +43,7 @@ pub(super) fn lamps_on(
 /// Whether light dies away: loading a file sees to it, a scene made in code may not.
 pub(super) fn check_reflectances(surfaces: &Surfaces, mesh: &Mesh, optics: &Optics) -> Result<()> {
     mesh.patches.iter().zip(&optics.reflectance).try_for_each(|(patch, &reflectance)| {
-        let material = surfaces.list[patch.surface as usize].material as usize;
+        let material = surfaces[patch.surface].material.index();
         let name = format_args!("material \"{}\"", surfaces.materials[material].name);
         relaxation::check_reflectance(reflectance, name)
     })

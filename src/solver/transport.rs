@@ -13,8 +13,8 @@ use super::links::{CLOSE, CLOSE_SHARE, Link, NEAR, Row};
 use super::parts::{self, SeenFacets};
 use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::{Hemicube, VisiblePatch, turn};
+use crate::geometry::polygon::centroid;
 use crate::mesh::{Element, ElementId, Mesh, PatchId};
-use crate::surface::polygon::centroid;
 use crate::visibility::SurfacePoint;
 
 /// The same for elements that glare, whose centre may see little of what hides most of the light.
@@ -79,8 +79,7 @@ fn row_of_patch(transport: Transport<'_>, hemicube: &mut Hemicube<'_>, shooter: 
         row.escaped += hemicube.escaping() * share;
         for sight in hemicube.visible_patches_of(|patch| !groups.holds(patch)) {
             if sight.front {
-                let VisiblePatch { patch, visible, .. } = sight;
-                Linking { mesh, hemicube, patch, visible }.link(source, &mut row);
+                Linking { mesh, hemicube, sight }.link(source, &mut row);
             } else {
                 row.on_backs += sight.delta * share;
             }
@@ -107,9 +106,7 @@ fn row_of_patch(transport: Transport<'_>, hemicube: &mut Hemicube<'_>, shooter: 
 struct Linking<'a, 'b> {
     mesh: &'a Mesh,
     hemicube: &'a Hemicube<'b>,
-    patch: PatchId,
-    /// Share of the patch that nothing hides.
-    visible: f64,
+    sight: VisiblePatch,
 }
 
 /// An element in space.
@@ -125,7 +122,7 @@ impl Linking<'_, '_> {
     /// Links the elements of the patch in sight with those under `source`, fine enough for their distance.
     fn link(&self, source: ElementId, row: &mut Row) {
         let mut open: SmallVec<[(ElementId, ElementId); 32]> = SmallVec::new();
-        open.push((source, self.mesh[self.patch].root));
+        open.push((source, self.mesh[self.sight.patch].root));
         while let Some((source, receiver)) = open.pop() {
             let (from, to) = (self.place(source), self.place(receiver));
             let near = from.centre.distance(to.centre) < NEAR * (from.size + to.size);
@@ -157,11 +154,9 @@ impl Linking<'_, '_> {
         if factor == 0.0 {
             return 0.0;
         }
-        let visible = match self.visible {
-            1.0 => 1.0,
-            visible if self.mesh[self.patch].root == receiver.element => visible,
-            _ => self.hemicube.visible_share(self.patch, &receiver.corners),
-        };
+        let is_part = self.mesh[self.sight.patch].root != receiver.element;
+        let part = is_part.then_some(&receiver.corners[..]);
+        let visible = self.hemicube.visible_share(&self.sight, part);
         factor * visible * self.mesh[small.element].area
     }
 

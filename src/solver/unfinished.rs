@@ -70,12 +70,12 @@ fn look(
 /// Gives corners of patches that are still dark the mean of what is known of their patch, else of their surface, else
 /// of all.
 fn borrow(mesh: &Mesh, light: &mut VertexLight) {
-    let surfaces = mesh.patches.iter().map(|patch| patch.surface as usize + 1).max().unwrap_or(0);
+    let surfaces = mesh.patches.iter().map(|patch| patch.surface.index() + 1).max().unwrap_or(0);
     let mut by_surface = vec![Mean::default(); surfaces];
     let mut all = Mean::default();
     for (index, vertex) in mesh.vertices.iter().enumerate() {
         if let Some(direct) = light.direct(VertexId(index as u32)) {
-            by_surface[vertex.surface as usize].add(direct);
+            by_surface[vertex.surface.index()].add(direct);
             all.add(direct);
         }
     }
@@ -83,7 +83,7 @@ fn borrow(mesh: &Mesh, light: &mut VertexLight) {
         let corners = &mesh[mesh[patch].root].corners;
         let mut own = Mean::default();
         corners.iter().filter_map(|&v| light.direct(v)).for_each(|direct| own.add(direct));
-        let means = [own, by_surface[mesh[patch].surface as usize], all];
+        let means = [own, by_surface[mesh[patch].surface.index()], all];
         let best = means.iter().find_map(Mean::value).unwrap_or_default();
         for &corner in corners {
             if light.direct(corner).is_none() {

@@ -2,8 +2,6 @@
 
 use serde::Serialize;
 
-use crate::direct::Lamps;
-
 /// Factors from a point to a polygon, by the formula of Lambert, and rays; whatever they were for.
 ///
 /// Hemicubes are counted beside ([`Solution::hemicubes`](super::Solution::hemicubes)): they tell what is
@@ -22,10 +20,6 @@ pub struct Work {
 }
 
 impl Work {
-    pub(super) fn new(lamps: &Lamps, exchange: u64) -> Self {
-        Self { direct: lamps.evaluations(), exchange, gathering: 0, rays: lamps.rays() }
-    }
-
     /// All evaluations of a form factor from a point to a polygon.
     pub fn form_factors(&self) -> u64 {
         self.direct + self.exchange + self.gathering

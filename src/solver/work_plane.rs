@@ -107,7 +107,7 @@ fn wrong(message: String) -> Error {
 
 /// Whether what is straight below a place shows its front, and not most of what is around it its back.
 fn is_over_floor(surfaces: &Surfaces, occluders: &Occluders, place: DVec3) -> bool {
-    let shows_back = |met: &Met| !met.front && !surfaces.list[met.surface as usize].two_sided;
+    let shows_back = |met: &Met| !met.front && !surfaces[met.surface].two_sided;
     let below = occluders.first(place, DVec3::NEG_Y);
     if below.is_none_or(|met| shows_back(&met)) {
         return false;

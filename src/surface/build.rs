@@ -4,8 +4,8 @@ use glam::{DAffine2, DMat2, DVec2};
 
 use super::merge::PlanarRegion;
 use super::model::{Surface, Surfaces, TOLERANCE};
-use super::polygon::Ring;
 use super::{contact, mask, merge, outliers, overlap};
+use crate::geometry::polygon::Ring;
 use crate::scene::Scene;
 
 /// The surfaces of a scene and their contact lines; none, with a [flaw](Surfaces::flaw), of one that was made in code
@@ -77,7 +77,7 @@ impl Surfaces {
 impl Surface {
     fn front(scene: &Scene, region: PlanarRegion) -> Self {
         let face = &scene.faces[region.faces[0]];
-        let material = &scene.materials[face.material as usize];
+        let material = &scene[face.material];
         Self {
             plane: region.plane,
             rings: region.rings,

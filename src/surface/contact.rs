@@ -11,9 +11,9 @@ use rayon::prelude::*;
 use smallvec::SmallVec;
 
 use super::model::{Contact, Surface};
-use super::plane::Plane;
-use super::polygon::{Line, Ring, Segment, contains, distance, edges};
-use crate::scene::boxes::{Aabb, Tree, are_close};
+use crate::geometry::Plane;
+use crate::geometry::boxes::{Aabb, Tree, are_close};
+use crate::geometry::polygon::{Line, Ring, Segment, contains, distance, edges};
 
 /// What faces a surface from less than this share of the scene's extent hovers close over it: a wider gap is wide
 /// enough for elements of its own, few times as large as the smallest of [`Settings::draft`].

@@ -5,8 +5,8 @@ use std::cmp::Reverse;
 use glam::DVec3;
 
 use super::merge::PlanarRegion;
-use super::polygon::area;
 use crate::colour::luminance;
+use crate::geometry::polygon::area;
 use crate::scene::Scene;
 
 /// True if two regions lie in one plane and face the same way.
@@ -31,7 +31,7 @@ impl Rank {
     pub(super) fn new(scene: &Scene, regions: &[PlanarRegion], place: usize) -> Self {
         let region = &regions[place];
         let face = &scene.faces[region.faces[0]];
-        let glow = luminance(scene.materials[face.material as usize].emission);
+        let glow = luminance(scene[face.material].emission);
         // To six digits, so that rounding does not decide.
         let size = size(region);
         let unit = 10f64.powf(size.max(f64::MIN_POSITIVE).log10().floor() - 6.0);

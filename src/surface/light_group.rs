@@ -68,7 +68,7 @@ impl Surfaces {
             material.emission = share(Emitter::Material(number));
         }
         for surface in &mut lit.list {
-            surface.exitance = lit.materials[surface.material as usize].emission * PI;
+            surface.exitance = lit.materials[surface.material.index()].emission * PI;
         }
         lit.lights.clear();
         for (number, NamedLight { name, light }) in self.lights.iter().enumerate() {
@@ -132,7 +132,7 @@ impl Surfaces {
         match emitter {
             Emitter::Material(number) => {
                 let is_even = self.materials[number].emission_texture.is_none();
-                let surfaces = self.list.iter().filter(|s| s.material as usize == number);
+                let surfaces = self.list.iter().filter(|s| s.material.index() == number);
                 is_even.then(|| share * PI * surfaces.map(Surface::area).sum::<f64>())
             }
             Emitter::Light(number) => match &self.lights[number].light {

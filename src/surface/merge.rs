@@ -5,9 +5,9 @@ use std::collections::{HashMap, HashSet};
 use glam::{DAffine2, DMat2, DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::plane::Plane;
-use super::polygon::{Ring, area};
 use super::tint::{Tint, Widest};
+use crate::geometry::Plane;
+use crate::geometry::polygon::{Ring, area};
 use crate::scene::{Face, Scene};
 
 /// A planar region: the faces it was joined from and its outline.

@@ -2,17 +2,15 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | the surfaces themselves | `model`, on a `plane` each, with a `tint`; their outlines are `polygon`s |
+//! | the surfaces themselves | `model`, with a `tint` |
 //! | from a scene | `build`: `merge` of neighbours, `mask` of pictures with holes, `overlap` and `partial_overlap` of what is `coplanar` |
 //! | how large the scene is | `outliers` |
 //! | where they touch | `contact` |
-//! | what others do with them | `cut` into convex pieces, `weld` of places, the mean of a `picture`, lights by `light_group` |
+//! | what others do with them | the mean of a `picture`, lights by `light_group` |
 
+mod ids;
 mod model;
-mod plane;
-pub mod polygon;
 mod tint;
-mod weld;
 
 mod build;
 mod contact;
@@ -23,16 +21,12 @@ mod outliers;
 mod overlap;
 mod partial_overlap;
 
-pub mod cut;
 mod light_group;
 mod picture;
 
 pub use build::{faces_of, surfaces_of};
+pub use ids::SurfaceId;
 pub use light_group::{LightGroup, StrengthUnit};
 pub use model::{Contact, Surface, Surfaces};
 pub use picture::{mean_reflectance, mean_texture};
-pub use plane::Plane;
-pub use polygon::{Ring, Segment};
 pub use tint::Tint;
-pub use weld::Weld;
-pub(crate) use weld::{Cells, cell_key, cells_around};

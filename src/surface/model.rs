@@ -1,21 +1,22 @@
 //! The surfaces themselves, and what of the scene light and pictures depend on besides.
 
 use glam::{DAffine2, DVec2, DVec3};
+use serde::Serialize;
 
-use super::plane::Plane;
-use super::polygon::{self, Ring, Segment};
 use super::tint::Tint;
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
-use crate::scene::boxes::{self, Aabb};
-use crate::scene::{Camera, Material, NamedLight, Node, Texture};
+use crate::geometry::Plane;
+use crate::geometry::boxes::{self, Aabb};
+use crate::geometry::polygon::{self, Ring, Segment};
+use crate::scene::{Camera, Material, MaterialId, NamedLight, Node, Texture};
 
 /// Distances below this share of the scene's extent count as zero: ten times the rounding of 32-bit
 /// coordinates.
 pub(super) const TOLERANCE: f64 = 2e-7;
 
 /// All surfaces of a scene, and what else of it light and pictures depend on.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Surfaces {
     /// The surfaces, in the order in which the scene first names them.
     pub list: Vec<Surface>,
@@ -43,7 +44,7 @@ pub struct Surfaces {
 }
 
 /// A planar polygon of one material that reflects and emits from its front.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Surface {
     /// Where it lies.
     pub plane: Plane,
@@ -57,8 +58,8 @@ pub struct Surface {
     pub tint: Tint,
     /// Exitance E = πL, W/m², without the texture's part.
     pub exitance: Rgb,
-    /// Index into [`Surfaces::materials`].
-    pub material: u32,
+    /// Its material.
+    pub material: MaterialId,
     /// Index into [`Surfaces::objects`]: that of its first face.
     pub object: u32,
     /// From plane coordinates to texture coordinates, where there is a texture.
@@ -73,7 +74,7 @@ pub struct Surface {
 }
 
 /// A line on a surface along which another surface meets it, or ends close over it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Contact {
     /// Where it runs, in coordinates of the surface's plane, m.
     pub segment: Segment,

@@ -7,8 +7,8 @@ use super::coplanar::{Rank, are_level, size};
 use super::merge::PlanarRegion;
 use super::model::TOLERANCE;
 use super::partial_overlap;
-use super::polygon::{Ring, centroid, contains, edges};
-use crate::scene::boxes::{self, Aabb, Tree, are_close};
+use crate::geometry::boxes::{self, Aabb, Tree, are_close};
+use crate::geometry::polygon::{Ring, centroid, contains, edges};
 use crate::scene::{Scene, note_count};
 
 /// Regions of which none covers another: what lies in the plane of a larger one and faces the same way is cut
@@ -120,7 +120,7 @@ fn inner_point(ring: &Ring) -> glam::DVec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Face, Material};
+    use crate::scene::{Face, Material, MaterialId};
     use crate::surface::surfaces_of;
 
     const SQUARES: [[f64; 3]; 8] = [
@@ -137,7 +137,7 @@ mod tests {
     fn areas(faces: &[&[u32]], positions: &[[f64; 3]]) -> Vec<f64> {
         let face = |(index, vertices): (usize, &&[u32])| Face {
             vertices: (*vertices).into(),
-            material: index as u32,
+            material: MaterialId(index as u32),
             ..Face::default()
         };
         let scene = Scene {

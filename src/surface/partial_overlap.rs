@@ -8,7 +8,7 @@ use i_overlay::float::single::SingleFloatOverlay;
 use super::coplanar::{Rank, are_level};
 use super::merge::PlanarRegion;
 
-use super::polygon::{Ring, area, bounds};
+use crate::geometry::polygon::{Ring, area, bounds};
 
 /// What one polygon has in common with another is nothing if it is narrower than this many tolerances.
 const NARROW: f64 = 10.0;

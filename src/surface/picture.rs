@@ -3,9 +3,9 @@
 use glam::{DAffine2, DVec2};
 
 use super::model::{Surface, Surfaces};
-use super::polygon::{Convex, Line, area, bounds, centroid, edges};
 use super::tint::Tint;
 use crate::colour::Rgb;
+use crate::geometry::polygon::{Convex, Line, area, bounds, centroid, edges};
 use crate::scene::Texture;
 
 /// Most texels that are weighed one by one, along one axis; more are sampled at so many places.
@@ -14,7 +14,7 @@ const MOST_TEXELS: f64 = 48.0;
 /// Mean colour of the reflectance's and of the emission's texture over a convex polygon on a
 /// surface; 1 without.
 pub fn mean_texture(surfaces: &Surfaces, surface: &Surface, outline: &[DVec2]) -> [Rgb; 2] {
-    let material = &surfaces.materials[surface.material as usize];
+    let material = &surfaces[surface.material];
     [material.texture, material.emission_texture].map(|texture| {
         let texture = texture.map(|t| &surfaces.textures[t as usize]);
         texture.zip(surface.uv).map_or(Rgb::ONE, |(texture, uv)| mean(texture, uv, outline, None))
@@ -23,7 +23,7 @@ pub fn mean_texture(surfaces: &Surfaces, surface: &Surface, outline: &[DVec2]) -
 
 /// Mean diffuse reflectance over a convex polygon on a surface, tint and texture included.
 pub fn mean_reflectance(surfaces: &Surfaces, surface: &Surface, outline: &[DVec2]) -> Rgb {
-    let texture = surfaces.materials[surface.material as usize].texture;
+    let texture = surfaces[surface.material].texture;
     let texture = texture.map(|t| &surfaces.textures[t as usize]).zip(surface.uv);
     let varied = match (surface.tint.uniform(), texture) {
         (Some(tint), None) => tint,

@@ -1,6 +1,7 @@
 //! Colours of vertices, laid over a surface.
 
 use glam::{DMat2, DVec2};
+use serde::Serialize;
 
 use crate::colour::Rgb;
 use crate::scene::Face;
@@ -9,7 +10,7 @@ use crate::scene::Face;
 const ALIKE: f64 = 0.5 / 255.0;
 
 /// A factor on a surface's reflectance, linear over its plane.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Tint {
     /// At the plane's origin.
     origin: Rgb,

@@ -3,12 +3,12 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::clip::{Pieces, PlanarPolygon};
 use super::occluder::Occluder;
 use super::occluders::Occluders;
 use super::shadow::VisibleRegion;
 use super::shaft::{ConvexBody, Shaft};
-use crate::scene::area_vector;
+use crate::geometry::area_vector;
+use crate::geometry::{Pieces, PlanarPolygon};
 
 /// The parts of occluders that lie in the convex hull of two polygons, in front of both.
 #[derive(Debug)]
@@ -26,7 +26,7 @@ impl Occluders {
         let shaft = Shaft::between(&ConvexBody::polygon(a), &ConvexBody::polygon(b), tolerance);
         let mut near: SmallVec<[&Occluder; 16]> = SmallVec::new();
         self.for_each_in(&self.all(), &shaft, |number, _| {
-            near.push(&self.polygons[number as usize]);
+            near.push(&self.polygons[number.index()]);
             true
         });
         let hides_all = near.iter().any(|occluder| occluder.hides(a.corners, b.corners, tolerance));

@@ -2,9 +2,11 @@
 
 use smallvec::SmallVec;
 
+use super::ids::OccluderId;
 use super::occluder::Occluder;
 use super::occluders::Occluders;
 use super::shaft::{ConvexBody, Shaft};
+use crate::surface::SurfaceId;
 
 /// More occluders than this are not listed one by one.
 const FEW: usize = 32;
@@ -16,7 +18,7 @@ const NODES: usize = 24;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Blockers {
     /// All of these occluders, by their numbers, and no others.
-    Few(SmallVec<[u32; 4]>),
+    Few(SmallVec<[OccluderId; 4]>),
     /// Some of the occluders under these nodes of the hierarchy.
     Many(Box<[u32]>),
     /// One occluder that hides each body from the other.
@@ -49,7 +51,7 @@ impl Occluders {
         around: &Blockers,
         a: &ConvexBody,
         b: &ConvexBody,
-        ignored: impl Fn(u32) -> bool,
+        ignored: impl Fn(SurfaceId) -> bool,
     ) -> Blockers {
         let shaft = Shaft::between(a, b, self.tolerance);
         let search = Search { occluders: self, bodies: [a, b], shaft: &shaft, ignored: &ignored };
@@ -65,14 +67,14 @@ impl Occluders {
         &self,
         around: &Blockers,
         shaft: &Shaft,
-        mut visit: impl FnMut(u32, &Occluder) -> bool,
+        mut visit: impl FnMut(OccluderId, &Occluder) -> bool,
     ) {
         match around {
             Blockers::Opaque => {}
             Blockers::Few(list) => {
                 let mut list = list.iter();
                 // `all` stops where `visit` has had enough.
-                list.all(|&number| visit(number, &self.polygons[number as usize]));
+                list.all(|&number| visit(number, &self.polygons[number.index()]));
             }
             Blockers::Many(nodes) => self.for_each_under(
                 nodes,
@@ -91,7 +93,7 @@ impl Occluders {
         a: &ConvexBody,
         b: &ConvexBody,
         most: usize,
-    ) -> Vec<u32> {
+    ) -> Vec<OccluderId> {
         let shaft = Shaft::between(a, b, self.tolerance);
         let mut numbers = Vec::new();
         self.for_each_in(around, &shaft, |number, occluder| {
@@ -112,12 +114,12 @@ struct Search<'a, F> {
     ignored: &'a F,
 }
 
-impl<F: Fn(u32) -> bool> Search<'_, F> {
-    fn among(&self, numbers: impl Iterator<Item = u32>) -> Blockers {
+impl<F: Fn(SurfaceId) -> bool> Search<'_, F> {
+    fn among(&self, numbers: impl Iterator<Item = OccluderId>) -> Blockers {
         let Self { occluders, shaft, .. } = self;
         let mut found = SmallVec::new();
         for number in numbers {
-            let occluder = &occluders.polygons[number as usize];
+            let occluder = &occluders.polygons[number.index()];
             if (self.ignored)(occluder.surface)
                 || occluder.inside(shaft.sides(), occluders.tolerance).is_none()
             {
@@ -151,16 +153,19 @@ impl<F: Fn(u32) -> bool> Search<'_, F> {
             open.insert_many(at, reached(&[first, first + 1]));
         }
         let leaves = || open.iter().map(|&(node, _)| self.node(node)).filter(|node| node.is_leaf());
-        let numbers =
-            || leaves().flat_map(|node| node.first_index..node.first_index + node.prim_count);
+        let numbers = || {
+            leaves()
+                .flat_map(|node| node.first_index..node.first_index + node.prim_count)
+                .map(OccluderId)
+        };
         if leaves().count() == open.len() {
             let listed = self.among(numbers());
             if !matches!(&listed, Blockers::Few(list) if list.len() > FEW) {
                 return listed;
             }
         }
-        let is_opaque = |number: u32| {
-            let occluder = &self.occluders.polygons[number as usize];
+        let is_opaque = |number: OccluderId| {
+            let occluder = &self.occluders.polygons[number.index()];
             !(self.ignored)(occluder.surface) && self.hides_all(occluder)
         };
         if numbers().any(is_opaque) {

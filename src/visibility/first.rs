@@ -3,9 +3,10 @@
 use glam::DVec3;
 use obvhs::ray::RayHit;
 
-use super::hierarchy::ray;
 use super::occluder::Occluder;
 use super::occluders::Occluders;
+use crate::geometry::hierarchy::ray;
+use crate::surface::SurfaceId;
 
 /// Where a ray meets an occluder.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,7 +15,7 @@ pub struct Met {
     pub place: DVec3,
     /// Index into [`Surfaces::list`](crate::surface::Surfaces::list), of a double-sided polygon its first
     /// entry; of occluders from polygons, into those.
-    pub surface: u32,
+    pub surface: SurfaceId,
     /// True if the ray comes from the polygon's front.
     pub front: bool,
 }

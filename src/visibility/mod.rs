@@ -10,10 +10,9 @@
 
 mod between;
 mod blockers;
-mod clip;
 mod coplanar;
 mod first;
-pub mod hierarchy;
+mod ids;
 mod occluder;
 mod occluders;
 pub mod packet;
@@ -25,9 +24,9 @@ mod visible;
 
 pub use between::Between;
 pub use blockers::Blockers;
-pub use clip::{HalfSpace, Pieces, PlanarPolygon, Polygon};
 pub(crate) use coplanar::{RECESS, hair};
 pub use first::Met;
+pub use ids::OccluderId;
 pub use occluders::Occluders;
 pub use patches::PatchHierarchy;
 pub use shaft::{ConvexBody, Shaft};

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::clip::{HalfSpace, PlanarPolygon, Polygon};
-use crate::surface::Surfaces;
-use crate::surface::cut::{Cuts, convex_pieces};
+use crate::geometry::cut::{Cuts, convex_pieces};
+use crate::geometry::{HalfSpace, PlanarPolygon, Polygon};
+use crate::surface::{SurfaceId, Surfaces};
 
 /// Corners nearer to each other than this share of the tolerance are one.
 const ROUNDING: f64 = 1e-3;
@@ -15,7 +15,7 @@ pub(super) struct Occluder {
     pub(super) corners: Polygon,
     pub(super) plane: HalfSpace,
     /// Index into [`Surfaces::list`], or into the polygons given.
-    pub(super) surface: u32,
+    pub(super) surface: SurfaceId,
 }
 
 impl Occluder {
@@ -27,7 +27,7 @@ impl Occluder {
             convex_pieces(&surface.rings, &cuts).into_iter().map(move |piece| Self {
                 corners: piece.iter().map(|&p| surface.plane.lift(p)).collect(),
                 plane: HalfSpace::new(surface.plane.origin, surface.plane.normal),
-                surface: number as u32,
+                surface: SurfaceId(number as u32),
             })
         })
     }

@@ -5,10 +5,11 @@ use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use smallvec::SmallVec;
 
-use super::clip::{HalfSpace, PlanarPolygon};
-use super::hierarchy::{hierarchy, ray};
+use super::ids::OccluderId;
 use super::occluder::Occluder;
-use crate::surface::Surfaces;
+use crate::geometry::hierarchy::{hierarchy, ray};
+use crate::geometry::{HalfSpace, PlanarPolygon};
+use crate::surface::{SurfaceId, Surfaces};
 
 /// All that blocks light: convex pieces of the surfaces, from both sides.
 #[derive(Clone)]
@@ -44,7 +45,7 @@ impl Occluders {
         let normal = |p: &[DVec3]| (p[1] - p[0]).cross(p[2] - p[0]).try_normalize();
         let occluder = |(number, p): (usize, &&[DVec3])| {
             let plane = HalfSpace::new(p[0], normal(p)?);
-            Some(Occluder { corners: (*p).into(), plane, surface: number as u32 })
+            Some(Occluder { corners: (*p).into(), plane, surface: SurfaceId(number as u32) })
         };
         Self::of(polygons.iter().enumerate().filter_map(occluder).collect(), tolerance)
     }
@@ -90,9 +91,9 @@ impl Occluders {
         self.polygons.is_empty()
     }
 
-    /// An occluder by its number, below [`Self::len`].
-    pub fn polygon(&self, number: u32) -> PlanarPolygon<'_> {
-        self.polygons[number as usize].polygon()
+    /// An occluder as a polygon.
+    pub fn polygon(&self, id: OccluderId) -> PlanarPolygon<'_> {
+        self.polygons[id.index()].polygon()
     }
 
     /// True if an occluder crosses the segment from `a` to `b`, its ends left out.
@@ -101,7 +102,7 @@ impl Occluders {
     }
 
     /// The same for occluders of whose surfaces `ignored` is false.
-    pub fn blocks_beyond(&self, a: DVec3, b: DVec3, ignored: impl Fn(u32) -> bool) -> bool {
+    pub fn blocks_beyond(&self, a: DVec3, b: DVec3, ignored: impl Fn(SurfaceId) -> bool) -> bool {
         if self.polygons.is_empty() {
             return false;
         }
@@ -120,7 +121,7 @@ impl Occluders {
     pub(super) fn for_each(
         &self,
         enter: impl FnMut(DVec3, DVec3) -> bool,
-        visit: impl FnMut(u32, &Occluder) -> bool,
+        visit: impl FnMut(OccluderId, &Occluder) -> bool,
     ) {
         let root: &[u32] = if self.polygons.is_empty() { &[] } else { &[0] };
         self.for_each_under(root, enter, visit);
@@ -131,7 +132,7 @@ impl Occluders {
         &self,
         nodes: &[u32],
         mut enter: impl FnMut(DVec3, DVec3) -> bool,
-        mut visit: impl FnMut(u32, &Occluder) -> bool,
+        mut visit: impl FnMut(OccluderId, &Occluder) -> bool,
     ) {
         let mut stack: SmallVec<[u32; 96]> = nodes.iter().rev().copied().collect();
         while let Some(index) = stack.pop() {
@@ -145,7 +146,7 @@ impl Occluders {
                 continue;
             }
             for index in node.first_index..node.first_index + node.prim_count {
-                if !visit(index, &self.polygons[index as usize]) {
+                if !visit(OccluderId(index), &self.polygons[index as usize]) {
                     return;
                 }
             }

@@ -10,7 +10,7 @@ use obvhs::bvh2::Bvh2;
 use obvhs::ray::RayHit;
 
 use super::coplanar::{RECESS, hair};
-use super::hierarchy::{hierarchy, ray};
+use crate::geometry::hierarchy::{hierarchy, ray};
 use crate::mesh::{Patch, PatchId};
 
 /// How far outside an edge's plane through the eye a ray still hits, radians or somewhat more:

@@ -3,9 +3,9 @@
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
-use super::clip::{HalfSpace, Pieces, PlanarPolygon, Polygon};
 use super::occluder::Occluder;
-use crate::surface::polygon::area;
+use crate::geometry::polygon::area;
+use crate::geometry::{HalfSpace, Pieces, PlanarPolygon, Polygon};
 
 /// A convex polygon in the source's plane, m.
 type Flat = SmallVec<[DVec2; 8]>;
@@ -248,7 +248,7 @@ mod tests {
         let wall = wall.map(|(y, z)| DVec3::new(0.5, y, z));
         let occluders = Occluders::from_polygons(&[&wall], 1e-6);
         let pieces = occluders.visible_part(DVec3::ZERO, &lamp, DVec3::NEG_Y).unwrap_or_default();
-        let area = |p: &Polygon| crate::scene::area_vector(p).length();
+        let area = |p: &Polygon| crate::geometry::area_vector(p).length();
         pieces.iter().map(area).sum::<f64>() / area(&Polygon::from_slice(&lamp))
     }
 

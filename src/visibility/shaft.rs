@@ -7,7 +7,7 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::clip::{HalfSpace, PlanarPolygon};
+use crate::geometry::{HalfSpace, PlanarPolygon};
 
 /// A convex body: a point, a planar polygon or a box.
 #[derive(Clone, Debug)]

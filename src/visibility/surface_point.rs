@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::clip::HalfSpace;
+use crate::geometry::HalfSpace;
 
 /// A point on a surface, and which way the surface faces there.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,11 +4,12 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::blockers::Blockers;
-use super::clip::{Pieces, PlanarPolygon};
 use super::occluder::Occluder;
 use super::occluders::Occluders;
 use super::shadow::{Shadow, VisibleRegion};
 use super::shaft::Shaft;
+use crate::geometry::{Pieces, PlanarPolygon};
+use crate::surface::SurfaceId;
 
 /// Beyond this many pieces, or shadows, a shaft is crowded, and cutting on costs more than sampling.
 pub const CROWDED: usize = 96;
@@ -43,13 +44,13 @@ impl Occluders {
         view: Pyramid<'_>,
         blockers: &Blockers,
         most: usize,
-        ignored: impl Fn(u32) -> bool,
+        ignored: impl Fn(SurfaceId) -> bool,
     ) -> Option<Pieces> {
         let seen = VisibleRegion::new(view.apex, view.base, self.tolerance);
         let mut rest = ShadowSubtraction::new(seen, most.min(CROWDED));
         if let Blockers::Few(list) = blockers {
             // So few that looking for those in the shaft takes longer than cutting.
-            let mut occluders = list.iter().map(|&number| &self.polygons[number as usize]);
+            let mut occluders = list.iter().map(|&number| &self.polygons[number.index()]);
             occluders.all(|occluder| ignored(occluder.surface) || rest.shade_by(occluder));
         } else {
             let shaft = Shaft::from_eye(view.apex, view.base);

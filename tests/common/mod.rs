@@ -67,7 +67,7 @@ pub fn area_of(scene: &Scene) -> f64 {
     let area = |face: &Face| {
         let at = |k: usize| scene.positions[face.vertices[k] as usize];
         let fan = (1..face.vertices.len() - 1).map(|k| (at(k) - at(0)).cross(at(k + 1) - at(0)));
-        let sides = if scene.materials[face.material as usize].double_sided { 2.0 } else { 1.0 };
+        let sides = if scene[face.material].double_sided { 2.0 } else { 1.0 };
         sides * fan.sum::<DVec3>().length() / 2.0
     };
     scene.faces.iter().map(area).sum()

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3};
 use radiosity::Scene;
 use radiosity::colour::Rgb;
-use radiosity::scene::{Face, Material, Sampler, Texture};
+use radiosity::scene::{Face, Material, MaterialId, Sampler, Texture};
 
 /// A scene under construction; equal positions are shared.
 #[derive(Clone, Debug, Default)]
@@ -31,20 +31,19 @@ const SIDES: [[usize; 4]; 6] =
 
 impl Stage {
     /// Adds a grey material of this reflectance and emitted radiance, W/(m² sr).
-    pub fn material(&mut self, reflectance: f64, radiance: f64) -> u32 {
-        self.scene.materials.push(Material {
+    pub fn material(&mut self, reflectance: f64, radiance: f64) -> MaterialId {
+        self.scene.add_material(Material {
             name: format!("material-{}", self.scene.materials.len()),
             reflectance: Rgb::splat(reflectance),
             emission: Rgb::splat(radiance),
             ..Material::default()
-        });
-        self.scene.materials.len() as u32 - 1
+        })
     }
 
     /// As [`Self::material`], for both sides of a polygon.
-    pub fn double_sided(&mut self, reflectance: f64, radiance: f64) -> u32 {
+    pub fn double_sided(&mut self, reflectance: f64, radiance: f64) -> MaterialId {
         let number = self.material(reflectance, radiance);
-        self.scene.materials[number as usize].double_sided = true;
+        self.scene.materials[number.index()].double_sided = true;
         number
     }
 
@@ -55,7 +54,7 @@ impl Stage {
         [reflectance, radiance]: [f64; 2],
         (size, sampler): (u32, Sampler),
         opacity: impl Fn(DVec2) -> f64,
-    ) -> u32 {
+    ) -> MaterialId {
         let number = self.material(reflectance, radiance);
         let texels = (0..size * size).map(|texel| [texel % size, texel / size]);
         let at = |texel: [u32; 2]| (DVec2::from(texel.map(f64::from)) + 0.5) / f64::from(size);
@@ -68,14 +67,14 @@ impl Stage {
             sampler,
             ..Texture::default()
         });
-        let material = &mut self.scene.materials[number as usize];
+        let material = &mut self.scene.materials[number.index()];
         material.texture = Some(self.scene.textures.len() as u32 - 1);
         material.cutoff = Some(0.5);
         number
     }
 
     /// Adds a polygon, counter-clockwise seen from its front.
-    pub fn polygon(&mut self, material: u32, corners: &[DVec3]) -> &mut Face {
+    pub fn polygon(&mut self, material: MaterialId, corners: &[DVec3]) -> &mut Face {
         let vertices = corners.iter().map(|&corner| self.position(corner)).collect();
         let index = self.scene.faces.len();
         self.scene.faces.push(Face { vertices, material, ..Face::default() });
@@ -83,21 +82,21 @@ impl Stage {
     }
 
     /// Adds the six walls of a room, facing inward.
-    pub fn room(&mut self, material: u32, low: DVec3, high: DVec3) {
+    pub fn room(&mut self, material: MaterialId, low: DVec3, high: DVec3) {
         for side in 0..6 {
             self.wall(material, (low, high), side);
         }
     }
 
     /// Adds one wall of a room, facing inward: 0 to 5 are at low x, high x, low y, high y, low z, high z.
-    pub fn wall(&mut self, material: u32, (low, high): (DVec3, DVec3), side: usize) {
+    pub fn wall(&mut self, material: MaterialId, (low, high): (DVec3, DVec3), side: usize) {
         let mut corners = SIDES[side].map(|corner| between(low, high, corner));
         corners.reverse();
         self.polygon(material, &corners);
     }
 
     /// Adds a box, facing outward.
-    pub fn block(&mut self, material: u32, block: Block) {
+    pub fn block(&mut self, material: MaterialId, block: Block) {
         let corners = block.corners();
         for side in SIDES {
             self.polygon(material, &side.map(|corner| corners[corner]));
@@ -105,7 +104,7 @@ impl Stage {
     }
 
     /// Adds a ball of flat facets, 12 rows of 24.
-    pub fn ball(&mut self, material: u32, centre: DVec3, radius: f64) {
+    pub fn ball(&mut self, material: MaterialId, centre: DVec3, radius: f64) {
         let at = |row: usize, column: usize| {
             let (down, around) = (PI * row as f64 / 12.0, TAU * (column % 24) as f64 / 24.0);
             let level = DVec3::new(around.cos(), 0.0, around.sin()) * down.sin();
@@ -125,7 +124,7 @@ impl Stage {
     }
 
     /// Adds a horizontal rectangle at the height of its corners, facing down.
-    pub fn lamp(&mut self, material: u32, low: DVec3, high: DVec3) {
+    pub fn lamp(&mut self, material: MaterialId, low: DVec3, high: DVec3) {
         let corners = [0, 1, 5, 4].map(|corner| between(low, high, corner));
         self.polygon(material, &corners);
     }

@@ -4,6 +4,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 use radiosity::direct::Lamps;
 use radiosity::mesh::{ElementId, Mesh};
+use radiosity::surface::SurfaceId;
 use radiosity::visibility::{Met, Occluders, SurfacePoint};
 use radiosity::{Settings, Surfaces, TriMesh, reconstruct, surfaces_of};
 use rayon::ThreadPoolBuilder;
@@ -90,7 +91,7 @@ fn the_first_of_several_polygons_is_met_and_its_side_told() {
     let occluders = Occluders::from_polygons(&squares.each_ref().map(|s| &s[..]), 1e-9);
     let from = |z: f64, direction: DVec3| occluders.first(DVec3::new(0.4, 0.6, z), direction);
     let met = |surface: u32, z: f64, front: bool| {
-        Some(Met { place: DVec3::new(0.4, 0.6, z), surface, front })
+        Some(Met { place: DVec3::new(0.4, 0.6, z), surface: SurfaceId(surface), front })
     };
     assert_eq!(from(0.0, DVec3::Z), met(1, 1.0, false));
     assert_eq!(from(1.0, DVec3::Z), met(2, 2.0, false), "what the place lies on is passed");

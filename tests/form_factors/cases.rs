@@ -9,8 +9,9 @@ use glam::DVec3;
 use radiosity::form_factor::contour::point_to_polygon;
 use radiosity::form_factor::pair::{exchange, visible_exchange};
 use radiosity::form_factor::{FormFactorMethod, assemble, factors_at};
+use radiosity::geometry::PlanarPolygon;
 use radiosity::mesh::{Mesh, Patch};
-use radiosity::visibility::{Occluders, PlanarPolygon, SurfacePoint};
+use radiosity::visibility::{Occluders, SurfacePoint};
 use radiosity::{Length, Settings, faces_of};
 use serde::Deserialize;
 

@@ -13,8 +13,9 @@ use proptest::prelude::*;
 use radiosity::direct::Lamps;
 use radiosity::form_factor::contour::point_to_polygon;
 use radiosity::form_factor::hemicube::{DeltaFactors, Hemicube, HemicubeScene, VisiblePatch};
+use radiosity::geometry::HalfSpace;
 use radiosity::mesh::Mesh;
-use radiosity::visibility::{HalfSpace, Occluders, SurfacePoint};
+use radiosity::visibility::{Occluders, SurfacePoint};
 use radiosity::{Scene, surfaces_of};
 
 fn point(range: f64) -> impl Strategy<Value = DVec3> {

@@ -7,8 +7,9 @@ use glam::DVec3;
 use proptest::prelude::*;
 use radiosity::form_factor::pair::{exchange, visible_exchange};
 use radiosity::form_factor::{Assembled, FormFactorMethod, FormFactors, assemble};
+use radiosity::geometry::{HalfSpace, PlanarPolygon};
 use radiosity::mesh::Mesh;
-use radiosity::visibility::{HalfSpace, Occluders, PlanarPolygon};
+use radiosity::visibility::Occluders;
 use radiosity::{Length, Scene, Settings, surfaces_of};
 
 use crate::common::{Block, Stage, furnished_room};

@@ -129,7 +129,7 @@ fn asset_of(scene: &Scene) -> Asset {
     let places = asset.add(&floats(&places), FLOAT, "VEC3", scene.positions.len() as u64);
     let (mut primitives, mut materials) = (Vec::new(), Vec::new());
     for (number, material) in scene.materials.iter().enumerate() {
-        let faces = scene.faces.iter().filter(|face| face.material as usize == number);
+        let faces = scene.faces.iter().filter(|face| face.material.index() == number);
         let fans = faces.flat_map(|face| {
             let hub = face.vertices[0];
             face.vertices[1..]

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use fastrand::Rng;
 use glam::DVec3;
 use radiosity::scene::{Light, NamedLight};
+use radiosity::solver::Cancellation;
 use radiosity::{Length, Scene, Settings, reconstruct, solve, surfaces_of};
 
 use crate::asset::Asset;
@@ -229,7 +230,8 @@ fn light(folder: &Folder, name: &str) {
         return;
     }
     if !scene.is_lit() {
-        scene.materials[scene.faces[0].material as usize].emission = DVec3::ONE;
+        let lamp = scene.faces[0].material.index();
+        scene.materials[lamp].emission = DVec3::ONE;
     }
     let surfaces = surfaces_of(&scene);
     let settings = Settings {
@@ -244,7 +246,7 @@ fn light(folder: &Folder, name: &str) {
     let begun = Instant::now();
     let hurry = |_: &_| match begun.elapsed() < Duration::from_secs(5) {
         true => ControlFlow::Continue(()),
-        false => ControlFlow::Break(()),
+        false => ControlFlow::Break(Cancellation::TimeLimit),
     };
     let Ok(solution) = solve(&surfaces, &settings, hurry) else { return };
     let mesh = reconstruct(&surfaces, &solution);

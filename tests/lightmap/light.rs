@@ -152,7 +152,7 @@ fn what_is_seen_is_albedo_times_texel_plus_emission() {
     let map = baked(lit, &atlas);
     let (mut error, mut all) = (0.0, 0.0);
     for part in &atlas.mesh.parts {
-        let material = &lit.surfaces.materials[part.material as usize];
+        let material = &lit.surfaces[part.material];
         let (reflectance, emission) = (material.reflectance, material.emission);
         for triangle in &atlas.mesh.triangles[part.triangles.clone()] {
             let centre = triangle.map(|v| atlas.mesh.light_uvs[v as usize]).iter().sum();

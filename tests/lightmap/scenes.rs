@@ -37,7 +37,7 @@ impl Lit {
 
     /// Index of the surface of a triangle.
     pub(crate) fn surface(&self, triangle: usize) -> usize {
-        self.solution.mesh.surface_of(self.mesh.leaves[triangle])
+        self.solution.mesh.surface_of(self.mesh.leaves[triangle]).index()
     }
 
     /// Radiance of a white surface, W/(m² sr), at a vertex.

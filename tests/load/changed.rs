@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use proptest::prelude::*;
 use radiosity::Scene;
 use radiosity::colour::{LUMENS_PER_WATT, Rgb};
+use radiosity::scene::MaterialId;
 use radiosity::scene::{Amount, AreaLight, Face, Material};
 
 use glam::DVec3;
@@ -20,7 +21,7 @@ fn squares() -> Scene {
     };
     Scene {
         positions: vec![corner(0., 0.), corner(0., 1.), corner(1., 1.), corner(1., 0.)],
-        faces: vec![face(0), face(1)],
+        faces: vec![face(MaterialId(0)), face(MaterialId(1))],
         materials: vec![named("lamp 1"), named("lamp 2"), named("none")],
         ..Scene::default()
     }
@@ -104,7 +105,7 @@ fn a_file_of_materials_replaces_what_it_names() {
 fn removed_materials_have_no_faces_and_a_note() {
     let text = "[\"lamp 2\"]\nremoved = true\n[\"lamp*\"]\nemission = \"100lm\"\nremoved = false\n";
     let scene = overridden(text).expect("the file is right");
-    assert!(scene.faces.len() == 1 && scene.faces[0].material == 0);
+    assert!(scene.faces.len() == 1 && scene.faces[0].material == MaterialId(0));
     assert_eq!(scene.notes, ["1 face of \"lamp 2\" removed: open, not even glass"]);
     let flux = scene.materials[0].emission.x * PI * 4.0 * LUMENS_PER_WATT;
     assert!((flux - 100.0).abs() < 1e-9, "from what is left: {flux}");

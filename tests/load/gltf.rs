@@ -140,7 +140,7 @@ fn faces_without_material_are_grey_with_a_note() {
     let mut asset = Asset::triangle();
     asset.json["meshes"][0]["primitives"][0].as_object_mut().unwrap().remove("material");
     let scene = asset.load();
-    assert_eq!(scene.materials[scene.faces[0].material as usize].reflectance, DVec3::splat(0.5));
+    assert_eq!(scene[scene.faces[0].material].reflectance, DVec3::splat(0.5));
     assert_eq!(scene.notes.len(), 1, "{:?}", scene.notes);
 }
 

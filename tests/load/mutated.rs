@@ -129,7 +129,7 @@ fn assert_sound(scene: &Scene) {
         assert!(face.uvs.iter().all(|uv| uv.is_finite()));
         let is_share = |tint: &glam::Vec3| tint.min_element() >= 0.0 && tint.max_element() <= 1.0;
         assert!(face.tints.iter().all(is_share));
-        assert!((face.material as usize) < scene.materials.len());
+        assert!((face.material.index()) < scene.materials.len());
         assert!((face.object as usize) < scene.objects.len());
     }
     for material in &scene.materials {

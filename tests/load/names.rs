@@ -17,7 +17,7 @@ fn load(obj: &str, mtl: (&str, &str)) -> Scene {
 }
 
 fn reflectance(scene: &Scene) -> DVec3 {
-    scene.materials[scene.faces[0].material as usize].reflectance
+    scene[scene.faces[0].material].reflectance
 }
 
 const WOOD: DVec3 = DVec3::new(0.25, 0.5, 0.125);

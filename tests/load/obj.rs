@@ -133,8 +133,7 @@ fn libraries_may_be_several_or_have_spaces_in_their_name() {
         .with("a.mtl", "newmtl two\nKd 0.2")
         .with("b.mtl", "newmtl three\nKd 0.3");
     let scene = folder.load("s.obj").unwrap();
-    let reflectance =
-        |face: usize| scene.materials[scene.faces[face].material as usize].reflectance.x;
+    let reflectance = |face: usize| scene[scene.faces[face].material].reflectance.x;
     assert_eq!([0, 1, 2].map(reflectance), [0.1, 0.2, 0.3]);
     assert!(scene.notes.is_empty(), "{:?}", scene.notes);
 }

@@ -44,7 +44,7 @@ fn binary_and_text_hold_the_same_triangles() {
     }
     let scene = load(text()).unwrap();
     assert_eq!(scene.objects, ["my wall", "lamp"]);
-    assert_eq!(scene.materials[scene.faces[1].material as usize].name, "lamp");
+    assert_eq!(scene[scene.faces[1].material].name, "lamp");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::ray::Ray;
 use proptest::prelude::*;
-use radiosity::visibility::hierarchy::hierarchy;
+use radiosity::geometry::hierarchy::hierarchy;
 
 fn boxes(range: f32, size: f32) -> impl Strategy<Value = Vec<Aabb>> {
     let corner = prop::array::uniform3(-range..range);

@@ -167,8 +167,8 @@ fn a_hemicube_of_fewer_cells_than_patches_looks_by_rays() {
     assert!(mesh.patches.len() > 4 * 3 * 32 * 32, "only {} patches", mesh.patches.len());
     let (fine, rough) = (HemicubeScene::new(&mesh.patches), HemicubeScene::new(&coarse.patches));
     let by_surface = |mesh: &Mesh, sights: &[hemicube::VisiblePatch]| {
-        let mut factors = vec![0.0; 1 + mesh.patches.last().map_or(0, |p| p.surface as usize)];
-        sights.iter().for_each(|s| factors[mesh[s.patch].surface as usize] += s.delta);
+        let mut factors = vec![0.0; 1 + mesh.patches.last().map_or(0, |p| p.surface.index())];
+        sights.iter().for_each(|s| factors[mesh[s.patch].surface.index()] += s.delta);
         factors
     };
     for eye in eyes().take(4) {

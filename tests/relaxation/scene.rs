@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 use radiosity::colour::Rgb;
 use radiosity::settings::Method;
-use radiosity::solver::{Phase, Stop};
+use radiosity::solver::{Cancellation, Phase, Stop};
 use radiosity::{Scene, Settings, Solution, surfaces_of};
 
 use crate::METHODS;
@@ -102,10 +102,14 @@ fn a_break_in_the_middle_of_a_sweep_loses_no_light() {
         let settings = Settings { solver: method, ..coarse() };
         let solution = radiosity::solve(&surfaces, &settings, |progress| {
             let is_enough = progress.phase == Phase::Shooting && progress.done > 0.3;
-            if is_enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if is_enough {
+                ControlFlow::Break(Cancellation::Caller)
+            } else {
+                ControlFlow::Continue(())
+            }
         });
         let solution = solution.unwrap();
-        assert_eq!(solution.stop, Stop::Cancelled, "{method:?}");
+        assert_eq!(solution.stop, Stop::Cancelled(Cancellation::Caller), "{method:?}");
         assert!(solution.history.len() > 10, "{method:?}");
         assert!(solution.energy.imbalance().abs() < 5e-3, "{method:?}");
     }

@@ -1,11 +1,11 @@
 //! Work that is kept, and gone on with.
 
-use std::fmt::Debug;
 use std::path::PathBuf;
 
 use clap::Args;
 use radiosity::solver::Checkpoint;
 use radiosity::{Error, Result, Settings};
+use serde::Serialize;
 
 /// Where work is kept.
 #[derive(Debug, Args)]
@@ -37,7 +37,7 @@ impl CheckpointOptions {
     /// The file, and whether it holds work of an earlier run.
     pub(crate) fn open(
         &self,
-        subject: &impl Debug,
+        subject: &impl Serialize,
         settings: &Settings,
     ) -> Result<(Checkpoint, bool)> {
         match &self.checkpoint {

@@ -197,7 +197,7 @@ impl<'a> Truth<'a> {
         let corners = mesh.triangles[triangle];
         let [a, b, c] = corners.map(|v| mesh.positions[v as usize]);
         let leaf = mesh.leaves[triangle];
-        let surface = solution.mesh.surface_of(leaf);
+        let surface = solution.mesh.surface_of(leaf).index();
         let normal = self.tracer.surfaces.list[surface].plane.normal;
         let site = Site { surface, place: (a + b + c) / 3.0, normal };
         let truth = self.tracer.direct(&site).irradiance + self.reflected(&site, mesh, corners);

@@ -82,7 +82,7 @@ impl<'a> CoarseGlb<'a> {
 
     /// The surfaces' own colour and emission.
     fn material(&mut self, part: &CoarsePart) -> io::Result<Index<Material>> {
-        let own = &self.map.surfaces.materials[part.material as usize];
+        let own = &self.map.surfaces[part.material];
         let mut texture = |number: Option<u32>| {
             let stored = number.map(|n| self.materials.texture(&mut self.document, n));
             stored.transpose().map(|index| index.map(first_uv))

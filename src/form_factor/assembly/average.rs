@@ -6,7 +6,7 @@ use super::row::{SparseRow, merged, rows_of};
 use crate::form_factor::matrix::FormFactors;
 use crate::form_factor::pair::{exchange, is_level};
 use crate::mesh::Patch;
-use crate::visibility::{Occluders, PlanarPolygon};
+use crate::visibility::Occluders;
 
 /// Exchanges above the diagonal in the first `count` rows, m²: exact where nothing stands between, else the mean of
 /// the two estimates; of fewer rows, if `observe` breaks off.
@@ -19,13 +19,13 @@ pub(super) fn exchanges_of(
 ) -> Vec<SparseRow> {
     let transposed = factors.transposed();
     let row = |(): &mut (), i: usize| {
-        let this = PlanarPolygon::of(&patches[i]);
+        let this = patches[i].polygon();
         let above = |&(j, _): &(usize, f64)| j > i;
         let there: SparseRow =
             factors.row(i).filter(above).map(|(j, f)| (j as u32, f * patches[i].area)).collect();
         let back = transposed.row(i).filter(above).map(|(j, f)| (j as u32, f * patches[j].area));
         let exact = |(j, sum): (u32, f64)| {
-            let other = PlanarPolygon::of(&patches[j as usize]);
+            let other = patches[j as usize].polygon();
             if is_level(this, other, occluders.tolerance()) {
                 return (j, 0.0);
             }

@@ -11,10 +11,11 @@ use rayon::prelude::*;
 use super::row::SparseRow;
 use crate::form_factor::hemicube::axes;
 use crate::form_factor::rays::Sphere;
+use crate::geometry::area_vector;
+use crate::geometry::hierarchy::hierarchy;
+use crate::geometry::{HalfSpace, Polygon};
 use crate::mesh::Patch;
-use crate::scene::area_vector;
-use crate::visibility::hierarchy::hierarchy;
-use crate::visibility::{HalfSpace, Occluders, PatchHierarchy, Polygon};
+use crate::visibility::{Occluders, PatchHierarchy};
 
 /// Rays that tell whether a place is within a solid.
 const PROBES: usize = 64;

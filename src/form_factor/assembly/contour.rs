@@ -5,8 +5,9 @@ use glam::DVec3;
 use super::contacts::Contacts;
 use super::row::SparseRow;
 use crate::form_factor::pair::visible_exchange;
+use crate::geometry::PlanarPolygon;
 use crate::mesh::Patch;
-use crate::visibility::{Occluders, PlanarPolygon};
+use crate::visibility::Occluders;
 
 /// Error of an exchange, as a share of the smaller patch's area.
 ///
@@ -42,7 +43,7 @@ impl<'a> Exchanges<'a> {
             return SparseRow::new();
         }
         let others = (i + 1..self.patches.len()).filter(|&j| !self.contacts.is_covered(j));
-        let exchange = |j: usize| (j as u32, self.with(i, j, PlanarPolygon::of(&self.patches[j])));
+        let exchange = |j: usize| (j as u32, self.with(i, j, self.patches[j].polygon()));
         let mut row: SparseRow =
             others.map(exchange).filter(|&(_, exchange)| exchange > 0.0).collect();
         row.shrink_to_fit();
@@ -68,7 +69,7 @@ impl<'a> Exchanges<'a> {
 
     /// Exchange, m², of patch `i` with a side of patch `j`.
     fn with(&self, i: usize, j: usize, side: PlanarPolygon<'_>) -> f64 {
-        let this = PlanarPolygon::of(&self.patches[i]);
+        let this = self.patches[i].polygon();
         if self.is_behind(i, side) || self.is_behind(j, this) {
             return 0.0;
         }

@@ -7,7 +7,7 @@ use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::{DeltaFactors, Hemicube, HemicubeScene};
 use crate::form_factor::rays::{Rays, Sphere};
 use crate::mesh::Patch;
-use crate::visibility::{Occluders, PatchHierarchy, PlanarPolygon, SurfacePoint};
+use crate::visibility::{Occluders, PatchHierarchy, SurfacePoint};
 
 /// Looks whose mean is taken: what lies along the cells in one does not in the others.
 const TURNS: usize = 4;
@@ -44,7 +44,7 @@ pub fn factors_at(
 
 fn exact(patch: &Patch, occluders: &Occluders, point: SurfacePoint) -> f64 {
     let SurfacePoint { position, normal } = point;
-    if PlanarPolygon::of(patch).plane.depth(position) <= 0.0 {
+    if patch.polygon().plane.depth(position) <= 0.0 {
         return 0.0;
     }
     let above = point.above().clip(&patch.corners);

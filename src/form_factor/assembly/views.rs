@@ -5,7 +5,7 @@ use crate::form_factor::contour::point_to_polygon;
 use crate::form_factor::hemicube::Hemicube;
 use crate::form_factor::rays::Rays;
 use crate::mesh::Patch;
-use crate::visibility::{Occluders, PlanarPolygon, SurfacePoint};
+use crate::visibility::{Occluders, SurfacePoint};
 
 /// The view through a hemicube: exact form factors times the shares of cells that were kept.
 pub(super) struct HemicubeView<'a> {
@@ -64,7 +64,7 @@ impl RayView<'_> {
     /// A patch that this share of the rays met, also if none did because it is small.
     fn seen(&self, eye: SurfacePoint, index: usize, share: f64) -> Option<SeenPatch> {
         let patch = &self.patches[index];
-        if PlanarPolygon::of(patch).plane.depth(eye.position) <= 0.0 {
+        if patch.polygon().plane.depth(eye.position) <= 0.0 {
             return None;
         }
         let above = eye.above().clip(&patch.corners);

@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
 use super::chart::{BilinearChart, STRAIGHT};
+use crate::geometry::polygon::edges;
 use crate::mesh::{Element, ElementId, Mesh, PatchId, VertexId};
-use crate::surface::polygon::edges;
 
 /// Finds elements on patches; made once for a mesh as it is.
 ///

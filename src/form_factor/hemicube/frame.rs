@@ -2,7 +2,8 @@
 
 use glam::{DMat3, DVec3, Vec3};
 
-use crate::visibility::{HalfSpace, SurfacePoint};
+use crate::geometry::HalfSpace;
+use crate::visibility::SurfacePoint;
 
 /// Where a hemicube is, and how it is turned.
 #[derive(Clone, Copy, Debug)]

@@ -54,9 +54,14 @@ impl Hemicube<'_> {
         items.map(|&item| (item != NOTHING).then_some(PatchId(item)))
     }
 
-    /// Share, 0..=1, of a convex part of a patch that nothing hides.
-    pub fn visible_share(&self, patch: PatchId, corners: &[DVec3]) -> f64 {
-        self.arch.dispatch(SharePass { hemicube: self, patch, corners })
+    /// Share, 0..=1, of a patch seen that nothing hides, or of a convex part of it with these corners.
+    pub fn visible_share(&self, sight: &VisiblePatch, part: Option<&[DVec3]>) -> f64 {
+        match part {
+            Some(corners) if sight.visible != 1.0 => {
+                self.arch.dispatch(SharePass { hemicube: self, patch: sight.patch, corners })
+            }
+            _ => sight.visible,
+        }
     }
 
     /// Sum of the delta factors of cells that see something not deeper than `depth`, m.

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::cubature::at;
 use super::unoccluded::exchange;
 use super::view::{PairView, VisibleOfAll, add, share};
-use crate::visibility::PlanarPolygon;
+use crate::geometry::PlanarPolygon;
 
 /// A part of a quadrilateral, seen from three by three points: its corners, the middles of its edges
 /// and its centre.

@@ -4,8 +4,9 @@ use super::cell::CubatureCell;
 use super::cubature::quadrilaterals;
 use super::unoccluded::{exchange, in_front, is_level};
 use super::view::{PairView, VisibleOfAll, add, share};
-use crate::scene::area_vector;
-use crate::visibility::{Occluders, PlanarPolygon};
+use crate::geometry::PlanarPolygon;
+use crate::geometry::area_vector;
+use crate::visibility::Occluders;
 
 /// Most cells that two polygons are divided in.
 const MOST_CELLS: usize = 512;

@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::cubature::Rule;
 use super::edges::log_distance;
 use crate::form_factor::contour::point_to_polygon_above;
-use crate::scene::area_vector;
-use crate::visibility::{HalfSpace, PlanarPolygon, Polygon};
+use crate::geometry::area_vector;
+use crate::geometry::{HalfSpace, PlanarPolygon, Polygon};
 
 /// Relative error of an exchange by contours, about.
 const ACCURACY: f64 = 1e-9;

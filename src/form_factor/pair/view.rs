@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::cubature::{at, quadrilaterals};
 use crate::form_factor::contour::point_to_polygon_above;
-use crate::visibility::{Between, PlanarPolygon};
+use crate::geometry::PlanarPolygon;
+use crate::visibility::Between;
 
 /// Distance of eyes from the border of what they are on, in tolerances: occluders within two of them
 /// count as in one plane with an eye.

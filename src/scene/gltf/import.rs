@@ -6,7 +6,7 @@ use super::extensions::is_readable;
 use super::file::GltfFile;
 use crate::scene::notes::{listed, note_count};
 use crate::scene::texture::UvMapping;
-use crate::scene::{Material, Scene};
+use crate::scene::{Material, MaterialId, Scene};
 
 /// A scene while it is read.
 pub(super) struct GltfImport<'a> {
@@ -15,7 +15,7 @@ pub(super) struct GltfImport<'a> {
     /// How the materials map texture coordinates, as many as the scene's materials.
     pub(super) mappings: Vec<UvMapping>,
     /// Index of the material of primitives without one.
-    pub(super) fallback: Option<u32>,
+    pub(super) fallback: Option<MaterialId>,
     /// Names of lamps, where they stand and how far they are said to reach, m.
     pub(super) ranges: Vec<(String, DVec3, f64)>,
     pub(super) skipped: Skipped,
@@ -46,12 +46,11 @@ impl<'a> GltfImport<'a> {
     }
 
     /// The default material, added to the scene on its first use.
-    pub(super) fn fallback_material(&mut self) -> u32 {
+    pub(super) fn fallback_material(&mut self) -> MaterialId {
         *self.fallback.get_or_insert_with(|| {
-            self.scene.materials.push(Material::default());
             self.mappings.push(UvMapping::default());
             self.scene.notes.push("meshes without material get grey of reflectance 0.5".to_owned());
-            self.scene.materials.len() as u32 - 1
+            self.scene.add_material(Material::default())
         })
     }
 

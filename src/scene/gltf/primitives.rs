@@ -12,8 +12,8 @@ use super::accessors::Purpose;
 use super::import::GltfImport;
 use super::pose::{Placement, Pose};
 use crate::error::Result;
-use crate::scene::Face;
 use crate::scene::limits::tamed;
+use crate::scene::{Face, MaterialId};
 
 /// A primitive's vertices in the world; lists other than `positions` may be empty.
 struct Vertices {
@@ -69,11 +69,11 @@ impl GltfImport<'_> {
         Ok(())
     }
 
-    fn material(&mut self, primitive: &Primitive) -> Result<u32> {
+    fn material(&mut self, primitive: &Primitive) -> Result<MaterialId> {
         match primitive.material {
             Some(index) => {
                 self.file.get(index, "material")?;
-                Ok(index.value() as u32)
+                Ok(MaterialId(index.value() as u32))
             }
             None => Ok(self.fallback_material()),
         }
@@ -98,12 +98,12 @@ impl GltfImport<'_> {
     fn vertices(
         &mut self,
         primitive: &Primitive,
-        material: u32,
+        material: MaterialId,
         placement: Placement<'_>,
     ) -> Result<Vertices> {
         let attribute =
             |semantic: Semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
-        let mapping = self.mappings[material as usize];
+        let mapping = self.mappings[material.index()];
         let points: Vec<[f64; 3]> = match attribute(Semantic::Positions) {
             Some(index) => self.file.floats(index, Purpose::Position)?,
             None => return Err(self.file.fail("a primitive without POSITION")),

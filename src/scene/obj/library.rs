@@ -16,13 +16,12 @@ use crate::scene::text::{self, without_comment, words};
 use crate::scene::texture::{
     MappedTexture, UvMapping, attach_pictures, decode, note_missing, without_picture,
 };
-use crate::scene::{Material, Scene, Texture};
+use crate::scene::{Material, MaterialId, Scene, Texture};
 
 /// What a face needs to know of its material.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Use {
-    /// Index into [`Scene::materials`].
-    pub(super) material: u32,
+    pub(super) material: MaterialId,
     pub(super) mapping: UvMapping,
 }
 
@@ -117,8 +116,7 @@ impl Library {
         };
         let reflectance_map = cut_out.or(reflectance_map);
         let mapping = attach_pictures(scene, &mut material, reflectance_map, emission_map);
-        scene.materials.push(material);
-        let used = Use { material: scene.materials.len() as u32 - 1, mapping };
+        let used = Use { material: scene.add_material(material), mapping };
         if let Some(short) = without_comment(&from.name) {
             self.by_short_name.insert(short.to_owned(), used);
         }
@@ -212,8 +210,7 @@ impl Library {
 
 /// A material without pictures, added to the scene.
 fn added(scene: &mut Scene, material: Material) -> Use {
-    scene.materials.push(material);
-    Use { material: scene.materials.len() as u32 - 1, mapping: UvMapping::default() }
+    Use { material: scene.add_material(material), mapping: UvMapping::default() }
 }
 
 /// One file with spaces in its name, or several files: whichever exists.

@@ -17,7 +17,7 @@ use self::library::{Library, Use};
 use self::lists::MeshLists;
 use self::scan::Scan;
 use super::notes::note_count;
-use super::{MAX_REFLECTANCE, Scene, text};
+use super::{MAX_REFLECTANCE, MaterialId, Scene, text};
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
 
@@ -50,8 +50,8 @@ pub(super) fn read(path: &Path) -> Result<Scene> {
 }
 
 /// Lets the colours of vertices tint the faces that have no picture; they are all that is known of those without a
-/// material, whose number is `nameless`.
-fn tint(scene: &mut Scene, colours: &[Vec3], nameless: Option<u32>) {
+/// material, which is `nameless`.
+fn tint(scene: &mut Scene, colours: &[Vec3], nameless: Option<MaterialId>) {
     let colour = |&vertex: &u32| colours.get(vertex as usize).copied().unwrap_or(Vec3::ONE);
     let [mut tinted, mut pictured] = [0; 2];
     for face in &mut scene.faces {
@@ -59,7 +59,7 @@ fn tint(scene: &mut Scene, colours: &[Vec3], nameless: Option<u32>) {
         if tints.iter().all(|tint| *tint == Vec3::ONE) {
             continue;
         }
-        let material = &mut scene.materials[face.material as usize];
+        let material = &mut scene.materials[face.material.index()];
         if material.texture.is_some() {
             pictured += 1;
             continue;

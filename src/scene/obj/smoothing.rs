@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use super::scan::FaceLine;
-use crate::scene::polygon::area_vector;
+use crate::geometry::area_vector;
 use crate::scene::{Face, Scene};
 
 /// An object, a smoothing group in it, and the bits of a position.

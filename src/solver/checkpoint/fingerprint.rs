@@ -1,23 +1,14 @@
 //! Whether two things are the same.
 
-use std::fmt::{self, Debug, Write};
+use std::io::BufWriter;
 
+use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-/// SHA-256 of all that something says of itself; numbers count to their last bit.
-pub(super) fn of(subject: &impl Debug) -> [u8; 32] {
-    let mut digest = Digesting(Sha256::new());
-    // Digesting never fails, and neither do the derived descriptions.
-    let _ = write!(digest, "{subject:?}");
-    digest.0.finalize().into()
-}
-
-/// Takes in text as it comes.
-struct Digesting(Sha256);
-
-impl Write for Digesting {
-    fn write_str(&mut self, text: &str) -> fmt::Result {
-        self.0.update(text);
-        Ok(())
-    }
+/// SHA-256 of something in serialised form (postcard); numbers count to their last bit.
+pub(super) fn of(subject: &impl Serialize) -> [u8; 32] {
+    let mut digest = Sha256::new();
+    // Neither digesting nor what derived serialisation does can fail; a sequence of unknown length could not be told.
+    let _ = postcard::to_io(subject, BufWriter::new(&mut digest));
+    digest.finalize().into()
 }

@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::file;
 
 /// The first bytes of the file; the last of them is the version of its form.
-const MAGIC: &[u8; 16] = b"radiosity work 2";
+const MAGIC: &[u8; 16] = b"radiosity work 3";
 
 /// Bytes before those of a record: its length and its checksum.
 const HEAD: usize = 12;

@@ -9,7 +9,6 @@
 mod fingerprint;
 mod journal;
 
-use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -50,7 +49,7 @@ struct Keeping {
 struct Header {
     version: String,
     scene: [u8; 32],
-    settings: String,
+    settings: Settings,
     /// Of the machine that the work was begun on: it may not change on the way.
     max_elements: Option<usize>,
 }
@@ -68,7 +67,7 @@ impl Checkpoint {
     ///
     /// # Errors
     /// When there is a file at `path` already, or none can be made there.
-    pub fn create(path: &Path, subject: &impl Debug, settings: &Settings) -> Result<Self> {
+    pub fn create(path: &Path, subject: &impl Serialize, settings: &Settings) -> Result<Self> {
         let header = Header::new(subject, settings);
         let journal = Journal::create(path, &header)?;
         Ok(Self::of(path, journal, &header))
@@ -80,7 +79,7 @@ impl Checkpoint {
     ///
     /// # Errors
     /// When there is none at `path`, or it is of another scene, other settings or another version.
-    pub fn resume(path: &Path, subject: &impl Debug, settings: &Settings) -> Result<Self> {
+    pub fn resume(path: &Path, subject: &impl Serialize, settings: &Settings) -> Result<Self> {
         let mut journal = Journal::open(path).map_err(Error::io(path))?;
         let found: Header = journal
             .next()
@@ -135,11 +134,11 @@ impl Checkpoint {
 }
 
 impl Header {
-    fn new(subject: &impl Debug, settings: &Settings) -> Self {
+    fn new(subject: &impl Serialize, settings: &Settings) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             scene: fingerprint::of(subject),
-            settings: format!("{:?}", Settings { max_elements: None, ..settings.clone() }),
+            settings: Settings { max_elements: None, ..settings.clone() },
             max_elements: settings.max_elements,
         }
     }
@@ -156,8 +155,18 @@ impl Header {
             return of("another scene, or of this one with other lights".to_owned());
         }
         if self.settings != wanted.settings {
-            return of("a solution with other settings".to_owned());
+            let differing = differing(&self.settings, &wanted.settings);
+            return of(format!("a solution with other settings: {differing}"));
         }
         Ok(())
     }
+}
+
+/// The settings that were others than those wanted, and what they were.
+fn differing(were: &Settings, wanted: &Settings) -> String {
+    let [were, wanted] = [were, wanted].map(|settings| serde_json::json!(settings));
+    let fields = were.as_object().into_iter().flatten();
+    let others = fields.filter(|(name, value)| wanted.get(name) != Some(value));
+    let told = others.map(|(name, value)| format!("{} {value}", name.replace('_', "-")));
+    told.collect::<Vec<_>>().join(", ")
 }

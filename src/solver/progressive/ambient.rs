@@ -19,7 +19,7 @@ impl Shooting<'_, '_> {
     pub(in crate::solver) fn ambient(&self) -> Rgb {
         let area = self.area();
         let share = |(patch, reflectance): (&Patch, &Rgb)| *reflectance * (patch.area / area);
-        let patches = self.mesh.patches.iter().zip(&self.optics.reflectance);
+        let patches = self.mesh.patches.iter().zip(&self.context.optics.reflectance);
         let reflectance: Rgb = patches.map(share).sum();
         self.unshot_power() / area / (Rgb::ONE - reflectance)
     }
@@ -39,7 +39,8 @@ impl Shooting<'_, '_> {
     /// that hold it.
     fn fate(&self) -> [Rgb; 2] {
         let strength = |(area, held): (&f64, &Rgb)| area * held.abs().element_sum();
-        let held: Vec<f64> = self.areas.iter().zip(&self.unshot).map(strength).collect();
+        let held: Vec<f64> =
+            self.areas.iter().zip(&self.state.unshot.radiosity).map(strength).collect();
         let all: f64 = held.iter().sum();
         if all <= 0.0 {
             return [Rgb::ZERO; 2];
@@ -53,7 +54,7 @@ impl Shooting<'_, '_> {
                 group += 1;
                 passed += held[group];
             }
-            let members = self.groups.members(group);
+            let members = self.context.groups.members(group);
             if let Some(surface) = self.met(&self.mesh[members[ray % members.len()]], ray) {
                 arriving += Rgb::ONE / RAYS as f64;
                 reflected += reflectances[surface] / RAYS as f64;
@@ -64,9 +65,10 @@ impl Shooting<'_, '_> {
 
     /// By surface, its mean reflectance with all textures.
     fn reflectances_of_surfaces(&self) -> Vec<Rgb> {
-        let mut sums = vec![(Rgb::ZERO, 0.0); self.surfaces.list.len()];
-        for (patch, &reflectance) in self.mesh.patches.iter().zip(&self.optics.reflectance) {
-            let (sum, area) = &mut sums[patch.surface as usize];
+        let mut sums = vec![(Rgb::ZERO, 0.0); self.context.surfaces.list.len()];
+        for (patch, &reflectance) in self.mesh.patches.iter().zip(&self.context.optics.reflectance)
+        {
+            let (sum, area) = &mut sums[patch.surface.index()];
             *sum += reflectance * patch.area;
             *area += patch.area;
         }
@@ -76,9 +78,9 @@ impl Shooting<'_, '_> {
     /// The surface whose front one of the rays meets that a patch's light may take.
     fn met(&self, patch: &Patch, ray: usize) -> Option<usize> {
         let middle = patch.corners.iter().sum::<DVec3>() / patch.corners.len() as f64;
-        let met = self.occluders.first(middle, cosine_direction(patch.normal, ray))?;
-        let surface = met.surface as usize;
-        (met.front || self.surfaces.list[surface].two_sided).then_some(surface)
+        let met = self.context.occluders.first(middle, cosine_direction(patch.normal, ray))?;
+        let surface = met.surface.index();
+        (met.front || self.context.surfaces.list[surface].two_sided).then_some(surface)
     }
 }
 

@@ -6,12 +6,13 @@
 //!
 //! [Cohen, Chen, Wallace and Greenberg 1988]: https://doi.org/10.1145/54852.378487
 
+mod row_cache;
+mod state;
+
 mod shooting;
 
 mod ambient;
 mod rows;
-
-mod state;
 
 use super::links::{Link, Row};
 use super::relaxation::{Convergence, Relaxation, RelaxationStep, RelaxationSystem};
@@ -22,25 +23,26 @@ use crate::error::{Error, Result};
 use crate::settings::Settings;
 
 pub(super) use shooting::Shooting;
-use shooting::Unshot;
-use state::last_state;
+pub(super) use state::State;
+use state::{ShootingRecord, last_kept};
 
 impl Shooting<'_, '_> {
     /// Lets patches shoot until the unshot power is small, the shots are used up, or the observer has
     /// seen enough.
     pub(super) fn run(&mut self, settings: &Settings) -> Result<(Stop, Vec<RelaxationStep>)> {
         let relaxation = Relaxation::new(settings.solver, settings.omega)?;
-        let (emitters, start) = (self.shots, self.energy.unshot_share().max(f64::MIN_POSITIVE));
-        let mut course = Convergence::new(relaxation, self);
+        let State { shots: emitters, energy, .. } = self.state;
+        let start = energy.unshot_share().max(f64::MIN_POSITIVE);
+        let mut convergence = Convergence::new(relaxation, self);
         let mut known = None;
-        if let Some(state) = last_state(self.observer) {
-            (course, known) = self.take_up(state);
+        if let Some(kept) = last_kept(self.observer) {
+            (convergence, known) = self.take_up(kept);
         }
         // What is made of the rest once there has been enough is not kept, but what there was by then is.
-        let is_going_on = known.is_none() && self.observer.flow.is_continue();
+        let is_going_on = known.is_none() && !self.observer.is_over();
         let stop = known.unwrap_or_else(|| {
-            relaxation.run(self, &mut course, |shooting, course| {
-                let step = course.step();
+            relaxation.run(self, &mut convergence, |shooting, convergence| {
+                let step = convergence.step();
                 if step.unshot <= settings.stop {
                     return Some(Stop::Converged);
                 }
@@ -48,34 +50,52 @@ impl Shooting<'_, '_> {
                     return Some(Stop::ShotLimit);
                 }
                 let done = (step.unshot / start).ln() / (settings.stop / start).ln();
-                let is_over = shooting.observer.tell(Phase::Shooting, done).is_break();
-                if !is_over && shooting.observer.checkpoint.is_due() {
-                    shooting.keep(course, None);
+                let _ = shooting.observer.tell(Phase::Shooting, done);
+                if !shooting.observer.is_over() && shooting.observer.checkpoint.is_due() {
+                    shooting.keep(convergence, None);
                 }
-                is_over.then_some(Stop::Cancelled)
+                shooting.observer.is_over().then(|| shooting.observer.stop())
             })
         });
-        if is_going_on && stop == Stop::Cancelled {
-            self.keep(&course, None);
+        if is_going_on && stop.is_cancelled() {
+            self.keep(&convergence, None);
         }
-        self.energy.unshot = self.unshot_power();
+        self.state.energy.unshot = self.unshot_power();
         self.spread_over_groups();
         if stop == Stop::Diverged {
             return Err(diverged(settings));
         }
-        if is_going_on && stop != Stop::Cancelled {
-            self.keep(&course, Some(stop));
+        if is_going_on && !stop.is_cancelled() {
+            self.keep(&convergence, Some(stop));
         }
-        Ok((stop, course.history))
+        Ok((stop, convergence.history))
+    }
+
+    /// Keeps the state in the checkpoint, once it has converged like this.
+    fn keep(&mut self, convergence: &Convergence, stop: Option<Stop>) {
+        let kept = (convergence, stop, &self.state, self.rows.ready());
+        self.observer.checkpoint.keep(&kept);
+    }
+
+    /// Goes on from what was kept, with the rows that were there made anew if any will be needed.
+    fn take_up(
+        &mut self,
+        (convergence, stop, state, ready): ShootingRecord,
+    ) -> (Convergence, Option<Stop>) {
+        if stop.is_none() {
+            self.make_rows(&ready);
+        }
+        self.state = state;
+        (convergence, stop)
     }
 
     /// Gives all patches of a group what they have received together.
     fn spread_over_groups(&mut self) {
-        for group in 0..self.groups.len() {
-            let [first, others @ ..] = self.groups.members(group) else { continue };
-            let light = self.received[self.mesh[*first].root.index()];
+        for group in 0..self.context.groups.len() {
+            let [first, others @ ..] = self.context.groups.members(group) else { continue };
+            let light = self.state.received[self.mesh[*first].root.index()];
             for &other in others {
-                self.received[self.mesh[other].root.index()] = light;
+                self.state.received[self.mesh[other].root.index()] = light;
             }
         }
     }
@@ -83,7 +103,7 @@ impl Shooting<'_, '_> {
 
 impl RelaxationSystem for Shooting<'_, '_> {
     fn rows(&self) -> usize {
-        self.unshot.len()
+        self.areas.len()
     }
 
     fn area(&self, row: usize) -> f64 {
@@ -91,29 +111,29 @@ impl RelaxationSystem for Shooting<'_, '_> {
     }
 
     fn residual(&self, row: usize) -> Rgb {
-        self.unshot[row]
+        self.state.unshot.radiosity[row]
     }
 
     fn emitted(&self) -> f64 {
-        self.energy.emitted.element_sum()
+        self.state.energy.emitted.element_sum()
     }
 
-    fn remember(&mut self) {
-        let (unshot, pending) = (self.unshot.clone(), self.pending.clone());
-        self.remembered = Some(Unshot { unshot, pending });
+    fn snapshot_sweep(&mut self) {
+        self.state.snapshot = Some(self.state.unshot.clone());
     }
 
     fn is_ready(&self, row: usize) -> bool {
-        self.rows[row].is_some()
+        self.rows.has(row)
     }
 
-    fn prepare(&mut self, rows: &[usize]) {
+    fn prepare(&mut self, rows: &[usize]) -> std::result::Result<(), Stop> {
         self.make_rows(rows);
+        if self.rows.has(rows[0]) { Ok(()) } else { Err(self.observer.stop()) }
     }
 
     fn relax(&mut self, shooter: usize, omega: f64) -> Rgb {
         let released = self.release(shooter, omega);
-        match self.groups.members(shooter) {
+        match self.context.groups.members(shooter) {
             &[patch] => self.release_elements(patch, omega),
             // Groups of facets are taken as one.
             facets => {
@@ -122,24 +142,25 @@ impl RelaxationSystem for Shooting<'_, '_> {
             }
         }
         let power = released * self.areas[shooter];
-        let row = self.rows[shooter].take().unwrap_or_default();
+        let row = self.rows.take(shooter);
         let arriving = power * (1.0 - row.escaped - row.on_backs);
         let scale = conserve(arriving, &row, &self.released);
         for link in &row.links {
             let power = scale * self.released[link.source.index()] * link.exchange;
-            let group = self.groups.of(self.mesh[link.receiver].patch);
-            let shared = self.groups.members(group).len() > 1;
+            let group = self.context.groups.of(self.mesh[link.receiver].patch);
+            let shared = self.context.groups.members(group).len() > 1;
             let area = if shared { self.areas[group] } else { self.mesh[link.receiver].area };
             // A group's light is kept with the first of its patches, and spread at last.
-            self.received[link.receiver.index()] += power / area;
-            self.pending[link.receiver.index()] += power / area;
-            self.unshot[group] += self.reflectances[group] * power / self.areas[group];
-            self.energy.absorbed += (Rgb::ONE - self.reflectances[group]) * power;
+            self.state.received[link.receiver.index()] += power / area;
+            self.state.unshot.irradiance[link.receiver.index()] += power / area;
+            self.state.unshot.radiosity[group] +=
+                self.reflectances[group] * power / self.areas[group];
+            self.state.energy.absorbed += (Rgb::ONE - self.reflectances[group]) * power;
         }
-        self.energy.escaped += power * row.escaped;
-        self.energy.on_backs += power * row.on_backs;
-        self.rows[shooter] = Some(row);
-        self.shots += 1;
+        self.state.energy.escaped += power * row.escaped;
+        self.state.energy.on_backs += power * row.on_backs;
+        self.rows.put_back(shooter, row);
+        self.state.shots += 1;
         released
     }
 }

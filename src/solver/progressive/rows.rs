@@ -10,30 +10,33 @@ use crate::solver::arrival::{ERROR, arrival};
 use crate::solver::context::Context;
 use crate::solver::links::Row;
 use crate::solver::transport::Transport;
+use crate::surface::SurfaceId;
 
 impl Shooting<'_, '_> {
     /// What lights at points send out and past all fronts, and what fronts absorb of all direct light.
     ///
     /// Of light from infinitely far, all that arrives is emitted.
-    pub(super) fn book_direct_light(&mut self, context: Context<'_>, vertices: &VertexLight) {
-        let (mesh, surfaces) = (self.mesh, self.surfaces);
-        let is_back = |surface: u32| !surfaces.list[surface as usize].two_sided;
+    pub(super) fn book_direct_light(&mut self, vertices: &VertexLight) {
+        let (mesh, context) = (self.mesh, self.context);
+        let surfaces = context.surfaces;
+        let is_back = |surface: SurfaceId| !surfaces[surface].two_sided;
         let Sent { emitted, escaped, on_backs } =
-            context.light.lamps().sent_by_points(self.occluders, is_back);
-        self.energy.emitted += emitted;
-        self.energy.escaped += escaped;
-        self.energy.on_backs += on_backs;
+            context.light.lamps().sent_by_points(context.occluders, is_back);
+        self.state.energy.emitted += emitted;
+        self.state.energy.escaped += escaped;
+        self.state.energy.on_backs += on_backs;
         // Once there has been enough, what the elements know will do.
-        let error = if self.observer.flow.is_break() { f64::INFINITY } else { ERROR };
-        let error = error * strength(self.energy.emitted);
-        let arrival = arrival(context, mesh, vertices, &self.light, error);
-        for (&reflectance, &received) in self.optics.reflectance.iter().zip(&arrival) {
-            self.energy.absorbed += (Rgb::ONE - reflectance) * received;
+        let error = if self.observer.is_over() { f64::INFINITY } else { ERROR };
+        let error = error * strength(self.state.energy.emitted);
+        let (arrival, work) = arrival(context, mesh, vertices, &self.light, error);
+        self.direct_work = work;
+        for (&reflectance, &received) in context.optics.reflectance.iter().zip(&arrival) {
+            self.state.energy.absorbed += (Rgb::ONE - reflectance) * received;
         }
         if surfaces.lights.iter().any(|named| named.light.position().is_none()) {
-            let elsewhere = self.energy.escaped + self.energy.on_backs;
+            let elsewhere = self.state.energy.escaped + self.state.energy.on_backs;
             let arrived: Rgb = arrival.iter().sum();
-            self.energy.emitted = self.energy.emitted.max(arrived + elsewhere);
+            self.state.energy.emitted = self.state.energy.emitted.max(arrived + elsewhere);
         }
     }
 
@@ -41,35 +44,32 @@ impl Shooting<'_, '_> {
     ///
     /// Once there has been enough, what they send past is not known of all of them.
     pub(super) fn book_emitters(&mut self) {
-        let (mesh, optics, groups) = (self.mesh, self.optics, self.groups);
+        let (mesh, optics, groups) = (self.mesh, self.context.optics, self.context.groups);
         let shines = |patch: &&PatchId| optics.shines(**patch);
         let emitters: Vec<usize> = (0..groups.len())
             .filter(|&group| groups.members(group).iter().any(|patch| shines(&patch)))
             .collect();
         let past = |row: Row| (row.escaped, row.on_backs, row.factors);
         let rows = self.rows_of(&emitters, past);
-        self.hemicubes += rows.len();
+        self.state.hemicubes += rows.len();
         let rows = rows.into_iter().chain(std::iter::repeat((0.0, 0.0, 0)));
         for (&emitter, (escaped, on_backs, factors)) in emitters.iter().zip(rows) {
-            self.factors += factors;
+            self.state.factors += factors;
             for &patch in groups.members(emitter).iter().filter(shines) {
                 let power = optics.exitance[patch.index()] * mesh[patch].area;
-                self.energy.emitted += power;
-                self.energy.escaped += power * escaped;
-                self.energy.on_backs += power * on_backs;
-                self.shots += 1;
+                self.state.energy.emitted += power;
+                self.state.energy.escaped += power * escaped;
+                self.state.energy.on_backs += power * on_backs;
+                self.state.shots += 1;
             }
         }
     }
 
     /// Makes the rows that are missing of some groups; none if there has been enough before all are made.
     pub(super) fn make_rows(&mut self, shooters: &[usize]) {
-        if self.kept > self.most_kept {
-            self.rows.fill(None);
-            self.kept = 0;
-        }
+        self.rows.make_room();
         let missing: Vec<usize> =
-            shooters.iter().copied().filter(|&shooter| self.rows[shooter].is_none()).collect();
+            shooters.iter().copied().filter(|&shooter| !self.rows.has(shooter)).collect();
         let rows = self.rows_of(&missing, |mut row| {
             row.links.shrink_to_fit();
             row
@@ -77,11 +77,10 @@ impl Shooting<'_, '_> {
         if rows.len() < missing.len() {
             return;
         }
-        self.hemicubes += rows.len();
+        self.state.hemicubes += rows.len();
         for (shooter, row) in missing.into_iter().zip(rows) {
-            self.kept += row.links.len();
-            self.factors += row.factors;
-            self.rows[shooter] = Some(row);
+            self.state.factors += row.factors;
+            self.rows.keep(shooter, row);
         }
     }
 
@@ -92,8 +91,9 @@ impl Shooting<'_, '_> {
         take: impl Fn(Row) -> R + Sync + Send,
     ) -> Vec<R> {
         let Self { mesh, ref glares, .. } = *self;
-        let transport = Transport { mesh, groups: self.groups, glares };
-        let (delta, targets, occluders) = (&self.delta, &self.targets, self.occluders);
+        let Context { groups: clusters, occluders, .. } = self.context;
+        let transport = Transport { mesh, groups: clusters, glares };
+        let (delta, targets) = (&self.delta, &self.targets);
         self.observer.map(
             groups,
             |_| Hemicube::new(delta, targets, occluders),

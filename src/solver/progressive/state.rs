@@ -2,73 +2,46 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::shooting::{Shooting, Unshot};
 use crate::colour::Rgb;
 use crate::solver::observer::Observer;
 use crate::solver::power_balance::PowerBalance;
 use crate::solver::relaxation::Convergence;
 use crate::solver::stop::Stop;
 
-/// What shooting has come to: the same, when it is taken up again, as if it had never been left.
-#[derive(Serialize, Deserialize)]
-pub(super) struct State {
-    course: Convergence,
-    /// Why it has ended, once it has.
-    stop: Option<Stop>,
-    held: Unshot,
-    remembered: Option<Unshot>,
-    received: Vec<Rgb>,
-    energy: PowerBalance,
-    shots: usize,
-    hemicubes: usize,
-    factors: u64,
-    /// Whose rows are there.
-    ready: Vec<usize>,
+/// What shooting has come to, all of it: taken up again, it is the same as if it had never been left.
+#[derive(Default, Serialize, Deserialize)]
+pub(in crate::solver) struct State {
+    pub(super) unshot: Unshot,
+    /// What groups release, if that is not what they hold: what they held when the sweep began.
+    pub(super) snapshot: Option<Unshot>,
+    /// By element: irradiance by reflected light received at that level, W/m².
+    pub(in crate::solver) received: Vec<Rgb>,
+    pub(in crate::solver) energy: PowerBalance,
+    pub(in crate::solver) shots: usize,
+    /// Hemicubes looked through.
+    pub(in crate::solver) hemicubes: usize,
+    /// Factors from a point to a polygon.
+    pub(in crate::solver) factors: u64,
 }
 
-impl Shooting<'_, '_> {
-    /// Keeps the state in the checkpoint.
-    pub(super) fn keep(&mut self, course: &Convergence, stop: Option<Stop>) {
-        let state = self.state(course, stop);
-        self.observer.checkpoint.keep(&state);
-    }
-
-    /// The state to go on from, once the history is this.
-    fn state(&self, course: &Convergence, stop: Option<Stop>) -> State {
-        let rows = self.rows.iter().enumerate().filter(|(_, row)| row.is_some());
-        State {
-            course: course.clone(),
-            stop,
-            held: Unshot { unshot: self.unshot.clone(), pending: self.pending.clone() },
-            remembered: self.remembered.clone(),
-            received: self.received.clone(),
-            energy: self.energy,
-            shots: self.shots,
-            hemicubes: self.hemicubes,
-            factors: self.factors,
-            ready: rows.map(|(row, _)| row).collect(),
-        }
-    }
-
-    /// Goes on from a state, with the rows that were there made anew if any will be needed.
-    pub(super) fn take_up(&mut self, state: State) -> (Convergence, Option<Stop>) {
-        if state.stop.is_none() {
-            self.make_rows(&state.ready);
-        }
-        (self.unshot, self.pending) = (state.held.unshot, state.held.pending);
-        (self.remembered, self.received) = (state.remembered, state.received);
-        (self.energy, self.shots) = (state.energy, state.shots);
-        (self.hemicubes, self.factors) = (state.hemicubes, state.factors);
-        (state.course, state.stop)
-    }
+/// Light received and not yet shot.
+#[derive(Clone, Default, Serialize, Deserialize)]
+pub(super) struct Unshot {
+    /// By group: mean radiosity, W/m².
+    pub(super) radiosity: Vec<Rgb>,
+    /// By element: irradiance received at that level, W/m².
+    pub(super) irradiance: Vec<Rgb>,
 }
 
-/// The last state that was kept of an exchange; none after its end was.
-pub(super) fn last_state(observer: &mut Observer<'_>) -> Option<State> {
-    let mut last: Option<State> = None;
-    while observer.flow.is_continue() && last.as_ref().is_none_or(|state| state.stop.is_none()) {
-        let Some(state) = observer.checkpoint.next() else { break };
-        last = Some(state);
+/// What is kept of an exchange: how it has converged, why it has ended, once it has, its state, and whose rows are there.
+pub(super) type ShootingRecord = (Convergence, Option<Stop>, State, Vec<usize>);
+
+/// What was kept last of an exchange; none after its end was.
+pub(super) fn last_kept(observer: &mut Observer<'_>) -> Option<ShootingRecord> {
+    let mut last: Option<ShootingRecord> = None;
+    while !observer.is_over() && last.as_ref().is_none_or(|(_, stop, ..)| stop.is_none()) {
+        let Some(kept) = observer.checkpoint.next() else { break };
+        last = Some(kept);
     }
     last
 }

@@ -25,15 +25,12 @@ impl Order {
     /// The next row, made ready together with those likely to follow; or else why there is none.
     pub(super) fn next(&mut self, system: &mut impl RelaxationSystem) -> Result<usize, Stop> {
         if self.method == Method::Jacobi && self.taken.is_multiple_of(system.rows().max(1)) {
-            system.remember();
+            system.snapshot_sweep();
         }
         let row = *self.ahead(system, 1).first().ok_or(Stop::Converged)?;
         if !system.is_ready(row) {
             let ahead = self.ahead(system, BATCH);
-            system.prepare(&ahead);
-            if !system.is_ready(row) {
-                return Err(Stop::Cancelled);
-            }
+            system.prepare(&ahead)?;
         }
         self.taken += 1;
         Ok(row)

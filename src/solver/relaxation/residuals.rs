@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::colour::Rgb;
+use crate::solver::stop::Stop;
 
 /// The state of a relaxation between two rows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,15 +36,17 @@ pub(in crate::solver) trait RelaxationSystem {
     fn emitted(&self) -> f64;
 
     /// Lets rows release what they hold now, and not what they hold when their turn comes.
-    fn remember(&mut self);
+    fn snapshot_sweep(&mut self);
 
     /// True if the row can be relaxed without [`Self::prepare`].
     fn is_ready(&self, _row: usize) -> bool {
         true
     }
 
-    /// Makes rows ready, the first of them at least; none of them if it is told to stop.
-    fn prepare(&mut self, _rows: &[usize]) {}
+    /// Makes rows ready, the first of them at least; or tells why it has stopped with none of them ready.
+    fn prepare(&mut self, _rows: &[usize]) -> Result<(), Stop> {
+        Ok(())
+    }
 
     /// Relaxes a row: releases `omega` times what it holds and delivers it. Returns the change of
     /// its radiosity, W/m².

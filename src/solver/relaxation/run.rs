@@ -33,20 +33,21 @@ impl Relaxation {
     pub(in crate::solver) fn run<S: RelaxationSystem>(
         self,
         system: &mut S,
-        course: &mut Convergence,
+        convergence: &mut Convergence,
         mut judge: impl FnMut(&mut S, &Convergence) -> Option<Stop>,
     ) -> Stop {
         loop {
-            let hopeless = |course: &Convergence| course.trend.verdict(&course.step());
-            if let Some(stop) = judge(system, course).or_else(|| hopeless(course)) {
+            let hopeless =
+                |convergence: &Convergence| convergence.stall.verdict(&convergence.step());
+            if let Some(stop) = judge(system, convergence).or_else(|| hopeless(convergence)) {
                 return stop;
             }
-            let row = match course.order.next(system) {
+            let row = match convergence.order.next(system) {
                 Ok(row) => row,
                 Err(stop) => return stop,
             };
             let change = system.relax(row, self.omega);
-            course.history.push(course.trend.step(system, Some((row, change))));
+            convergence.history.push(convergence.stall.step(system, Some((row, change))));
         }
     }
 }
@@ -55,7 +56,7 @@ impl Relaxation {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::solver) struct Convergence {
     order: Order,
-    trend: StallDetector,
+    stall: StallDetector,
     /// The state at the start, and after each row.
     pub(in crate::solver) history: Vec<RelaxationStep>,
 }
@@ -63,9 +64,9 @@ pub(in crate::solver) struct Convergence {
 impl Convergence {
     /// At the start.
     pub(in crate::solver) fn new(relaxation: Relaxation, system: &impl RelaxationSystem) -> Self {
-        let mut trend = StallDetector::new(system.rows());
-        let start = trend.step(system, None);
-        Self { order: Order::new(relaxation.method), trend, history: vec![start] }
+        let mut stall = StallDetector::new(system.rows());
+        let start = stall.step(system, None);
+        Self { order: Order::new(relaxation.method), stall, history: vec![start] }
     }
 
     /// The state after the row relaxed last.

@@ -99,10 +99,11 @@ impl System {
     /// Relaxes the system, from darkness.
     pub fn relax(&self, relaxation: Relaxation, criteria: &Criteria) -> Relaxed {
         let mut state = SystemState::dark(self);
-        let mut course = Convergence::new(relaxation, &state);
-        let stop =
-            relaxation.run(&mut state, &mut course, |_, course| criteria.judge(&course.step()));
-        let history = course.history;
+        let mut convergence = Convergence::new(relaxation, &state);
+        let stop = relaxation.run(&mut state, &mut convergence, |_, convergence| {
+            criteria.judge(&convergence.step())
+        });
+        let history = convergence.history;
         Relaxed { radiosity: state.radiosity, stop, history }
     }
 
@@ -146,7 +147,7 @@ impl RelaxationSystem for SystemState<'_> {
         areas.zip(&self.system.exitance).map(|(&area, e)| area * e.abs().element_sum()).sum()
     }
 
-    fn remember(&mut self) {
+    fn snapshot_sweep(&mut self) {
         self.remembered = Some(self.residual.clone());
     }
 

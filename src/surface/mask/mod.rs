@@ -14,8 +14,8 @@ use rayon::prelude::*;
 use super::merge::PlanarRegion;
 use super::model::TOLERANCE;
 use super::partial_overlap::{plain, rings_of};
-use super::polygon::{Ring, area, bounds};
 use super::tint::Widest;
+use crate::geometry::polygon::{Ring, area, bounds};
 use crate::scene::{Face, Material, Scene, Texture, counted, note_count};
 use simplify::{Limits, simplified};
 use trace::{Lattice, Opaque, outline};
@@ -106,7 +106,7 @@ enum Left {
 impl<'a> CutOut<'a> {
     fn new(scene: &'a Scene, regions: &[PlanarRegion], region: usize) -> Option<Self> {
         let face = &scene.faces[regions[region].faces[0]];
-        let Material { texture, cutoff, .. } = &scene.materials[face.material as usize];
+        let Material { texture, cutoff, .. } = &scene[face.material];
         let (number, cutoff) = ((*texture)?, (*cutoff)?);
         let texture = &scene.textures[number as usize];
         if texture.alpha.is_empty() {

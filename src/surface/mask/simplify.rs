@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use glam::DVec2;
 
-use crate::surface::polygon::{Ring, area, bounds, centroid};
+use crate::geometry::polygon::{Ring, area, bounds, centroid};
 
 /// How far rings are simplified.
 #[derive(Clone, Copy, Debug)]

@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
+use crate::geometry::polygon::Ring;
 use crate::scene::Texture;
-use crate::surface::polygon::Ring;
 
 /// Most opacities that are looked at between texels, so that outlines of few texels are round.
 const FINE: f64 = 16_384.0;
@@ -175,8 +175,8 @@ impl ContourTracer {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::polygon::area;
     use crate::scene::{Sampler, Wrap};
-    use crate::surface::polygon::area;
 
     fn traced(alpha: &[u8], width: u32, nearest: bool) -> (f64, Vec<Ring>) {
         let height = alpha.len() as u32 / width;

@@ -118,7 +118,7 @@ fn segment_line(cell: &BspCell, tolerance: f64) -> Option<Line> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::surface::polygon::{area, distance};
+    use crate::geometry::polygon::{area, distance};
 
     fn ring(corners: &[(f64, f64)]) -> Ring {
         corners.iter().map(|&c| DVec2::from(c)).collect()

@@ -1,9 +1,10 @@
 //! The one border between space and a surface's own coordinates.
 
 use glam::{DVec2, DVec3};
+use serde::Serialize;
 
 /// A plane with an orthonormal frame; `u × v = normal`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Plane {
     /// The place with coordinates (0, 0), m.
     pub origin: DVec3,

@@ -3,8 +3,6 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use crate::mesh::Patch;
-
 /// A convex planar polygon in space.
 pub type Polygon = SmallVec<[DVec3; 8]>;
 
@@ -33,11 +31,6 @@ impl<'a> PlanarPolygon<'a> {
     /// The polygon with these corners and unit `normal`.
     pub fn new(corners: &'a [DVec3], normal: DVec3) -> Self {
         Self { corners, plane: HalfSpace::new(corners[0], normal) }
-    }
-
-    /// The front of a patch.
-    pub fn of(patch: &'a Patch) -> Self {
-        Self::new(&patch.corners, patch.normal)
     }
 }
 

@@ -1,0 +1,50 @@
+//! Rows kept for later shots, as far as there is room.
+
+use crate::solver::links::Row;
+
+/// The rows that are there, by group.
+pub(super) struct RowCache {
+    list: Vec<Option<Row>>,
+    /// How many links they have.
+    links: usize,
+    /// Beyond so many they are made anew.
+    most: usize,
+}
+
+impl RowCache {
+    /// None yet, for so many groups; of all that follow, at most about so many links are kept.
+    pub(super) fn new(groups: usize, most: usize) -> Self {
+        Self { list: vec![None; groups], links: 0, most }
+    }
+
+    pub(super) fn has(&self, group: usize) -> bool {
+        self.list[group].is_some()
+    }
+
+    /// The groups whose rows are there.
+    pub(super) fn ready(&self) -> Vec<usize> {
+        (0..self.list.len()).filter(|&group| self.has(group)).collect()
+    }
+
+    /// Takes a row out, to be put back.
+    pub(super) fn take(&mut self, group: usize) -> Row {
+        self.list[group].take().unwrap_or_default()
+    }
+
+    pub(super) fn put_back(&mut self, group: usize, row: Row) {
+        self.list[group] = Some(row);
+    }
+
+    pub(super) fn keep(&mut self, group: usize, row: Row) {
+        self.links += row.links.len();
+        self.list[group] = Some(row);
+    }
+
+    /// Drops all if they have become too many.
+    pub(super) fn make_room(&mut self) {
+        if self.links > self.most {
+            self.list.fill(None);
+            self.links = 0;
+        }
+    }
+}
