@@ -55,7 +55,7 @@ Examples:
 
 `radiosity help solve` explains every option.
 Exit codes: 0 done; 1 failed; 2 wrong usage; 3 ended early by Ctrl-C, SIGTERM or a time limit, what there is
-is written and marked as unfinished; 130 ended by a signal before there was anything to write.";
+is written and marked as unfinished; 130 or 143 ended by Ctrl-C or SIGTERM before there was anything to write.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
