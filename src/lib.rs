@@ -60,6 +60,15 @@
 //! # }
 //! ```
 
+#![cfg_attr(docsrs, feature(doc_cfg))]
+#![cfg_attr(
+    not(feature = "compare"),
+    allow(
+        dead_code,
+        unused_imports,
+        reason = "some of what rooms share is for pages and reports alone"
+    )
+)]
 #![warn(clippy::print_stdout, clippy::print_stderr, clippy::unwrap_used)]
 
 pub mod colour;
@@ -94,8 +103,10 @@ pub mod tone;
 pub mod export;
 pub mod render;
 
+#[cfg(feature = "pages")]
 pub mod page;
 
+#[cfg(feature = "compare")]
 pub mod compare;
 
 pub mod guide;

@@ -84,6 +84,9 @@ impl FactorFormat {
     }
 }
 
+/// Bytes of a `.npy`'s header after the first ten; enough for any number of patches.
+const NPY_TEXT: u16 = 128 - 10;
+
 /// All entries of a row, zeros included.
 fn dense(factors: &FormFactors, i: usize) -> Vec<f64> {
     let mut row = vec![0.0; factors.len()];
@@ -106,15 +109,21 @@ fn write_csv(table: &FactorTable<'_>, out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
+/// Writes numpy's format, version 1: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>.
+/// Reading is left to a crate; this much is less than what that one brings along.
 fn write_npy(factors: &FormFactors, out: &mut impl Write) -> io::Result<()> {
-    use npyz::WriterBuilder;
-    let n = factors.len() as u64;
-    let options = npyz::WriteOptions::<f64>::new().default_dtype().shape(&[n, n]);
-    let mut writer = options.writer(out).begin_nd()?;
-    for i in 0..factors.len() {
-        writer.extend(dense(factors, i))?;
+    let n = factors.len();
+    out.write_all(b"\x93NUMPY\x01\x00")?;
+    let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({n}, {n}, ), }}");
+    // The numbers are to begin at a multiple of 64 bytes.
+    out.write_all(&NPY_TEXT.to_le_bytes())?;
+    writeln!(out, "{header:<0$}", usize::from(NPY_TEXT) - 1)?;
+    for i in 0..n {
+        for factor in dense(factors, i) {
+            out.write_all(&factor.to_le_bytes())?;
+        }
     }
-    writer.finish()
+    Ok(())
 }
 
 struct Json<'a>(&'a FactorTable<'a>);
