@@ -25,6 +25,9 @@
 //! scene → surface → mesh → visibility → `form_factor` → direct → refine → solver → reconstruct →
 //! lightmap → tone → export, render → page → compare
 //!
+//! Features, all of them on unless left out: `pages` brings [`mod@page`], `compare` brings `pages` and [`mod@compare`], and
+//! `cli` both and the command.
+//!
 //! # Words and units
 //!
 //! A *surface* is a planar polygon of one material; a *patch*, a coarse piece of it, shoots; an
