@@ -3,7 +3,7 @@
 //!
 //! `cargo bench --bench bvh`
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/library/common/mod.rs"]
 mod common;
 
 use std::hint::black_box;

@@ -17,7 +17,7 @@ use radiosity::surface::Surfaces;
 use radiosity::visibility::{Occluders, SurfacePoint};
 use radiosity::{Length, Settings, surfaces_of};
 
-#[path = "../tests/common/stage.rs"]
+#[path = "../tests/library/common/stage.rs"]
 mod stage;
 
 use stage::{Block, Stage};

@@ -25,6 +25,9 @@
 //! scene → surface → mesh → visibility → `form_factor` → direct → refine → solver → reconstruct →
 //! lightmap → tone → export, render → page → compare
 //!
+//! Features, all of them on unless left out: `pages` brings [`mod@page`], `compare` brings `pages` and [`mod@compare`], and
+//! `cli` both and the command.
+//!
 //! # Words and units
 //!
 //! A *surface* is a planar polygon of one material; a *patch*, a coarse piece of it, shoots; an
@@ -60,6 +63,15 @@
 //! # }
 //! ```
 
+#![cfg_attr(docsrs, feature(doc_cfg))]
+#![cfg_attr(
+    not(feature = "compare"),
+    allow(
+        dead_code,
+        unused_imports,
+        reason = "some of what rooms share is for pages and reports alone"
+    )
+)]
 #![warn(clippy::print_stdout, clippy::print_stderr, clippy::unwrap_used)]
 
 pub mod colour;
@@ -96,8 +108,10 @@ pub mod tone;
 pub mod export;
 pub mod render;
 
+#[cfg(feature = "pages")]
 pub mod page;
 
+#[cfg(feature = "compare")]
 pub mod compare;
 
 pub mod guide;

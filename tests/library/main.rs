@@ -1,0 +1,30 @@
+//! What the library promises, one room or task a module; what the command does is in `tests/command`.
+
+mod architecture;
+mod built;
+mod common;
+mod compare;
+mod convergence;
+mod cut_outs;
+mod determinism;
+mod export;
+mod form_factors;
+mod fuzz;
+mod golden;
+mod grid;
+mod hemicube;
+mod hovering;
+mod laws;
+mod lightmap;
+mod load;
+mod mesh;
+mod near_lamps;
+mod page;
+mod rays;
+mod reconstruct;
+mod relaxation;
+mod relight;
+mod render;
+mod shadows;
+mod sky;
+mod unfinished;

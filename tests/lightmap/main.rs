@@ -1,9 +1,0 @@
-//! Laws of lightmaps: where surfaces are in an atlas, and that the light in it is theirs.
-
-#[path = "../common/mod.rs"]
-mod common;
-
-mod atlas;
-mod files;
-mod light;
-mod scenes;
