@@ -16,11 +16,13 @@ fn main() -> radiosity::Result<()> {
     let surfaces = surfaces_of(&scene);
     // The first shot is the lamp's.
     let reflected = [1, 2, 24, 100, 1000].map(|shots| shots - 1);
-    let plan = Plan { stages: &reflected, ..Plan::default() };
+    let plan = Plan { snapshots: &reflected, ..Plan::default() };
     let go_on = |_: &Progress| ControlFlow::Continue(());
-    let (_, stages) = solve_with(&surfaces, &Settings::draft(), plan, go_on)?;
-    let mut steps: Vec<(TriMesh, Solution)> =
-        stages.into_iter().map(|stage| (reconstruct(&surfaces, &stage), stage)).collect();
+    let (_, snapshots) = solve_with(&surfaces, &Settings::draft(), plan, go_on)?;
+    let mut steps: Vec<(TriMesh, Solution)> = snapshots
+        .into_iter()
+        .map(|snapshot| (reconstruct(&surfaces, &snapshot), snapshot))
+        .collect();
     let Some((reference, end)) = steps.pop() else {
         return Ok(());
     };

@@ -40,15 +40,15 @@ pub struct Settings {
     pub shadow_rays: Option<u32>,
     /// Share of all emitted power that may be left unshot when the solver stops
     /// (1e-9..=1; default 0.001).
-    pub stop: f64,
-    /// Most shots to fire, emitters included; `None` goes on until `stop` is reached.
+    pub unshot_limit: f64,
+    /// Most shots to fire, emitters included; `None` goes on until `unshot_limit` is reached.
     pub max_shots: Option<usize>,
     /// Most elements: refinement ends before there are more (default `None`: it does not matter). Patches come
     /// first, however many they are.
     pub max_elements: Option<usize>,
     /// Which patch sends its reflected light on next (default [`Method::Progressive`]). All end with
     /// the same light, some sooner.
-    pub solver: Method,
+    pub method: Method,
     /// Factor on the light that a patch sends at a time (above 0, below 2; default 1): less is
     /// under-, more over-relaxation.
     pub omega: f64,
@@ -105,10 +105,10 @@ impl Settings {
             uniform: None,
             discontinuity_lines: true,
             shadow_rays: None,
-            stop: 0.001,
+            unshot_limit: 0.001,
             max_shots: None,
             max_elements: None,
-            solver: Method::Progressive,
+            method: Method::Progressive,
             omega: 1.0,
             hemicube_resolution: 128,
         }
@@ -148,7 +148,7 @@ impl Settings {
         positive("patch-size", self.patch_size.number())?;
         positive("uniform", self.uniform.unwrap_or(1.0))?;
         in_range("shadow-rays", f64::from(self.shadow_rays.unwrap_or(1)), 1.0, 4096.0)?;
-        in_range("stop", self.stop, 1e-9, 1.0)?;
+        in_range("stop", self.unshot_limit, 1e-9, 1.0)?;
         check_omega(self.omega)?;
         let cells = self.hemicube_resolution;
         in_range("hemicube-resolution", f64::from(cells), 32.0, 1024.0)?;
@@ -271,7 +271,7 @@ mod tests {
             ),
             ("uniform", Settings { uniform: Some(0.0), ..medium.clone() }),
             ("shadow-rays", Settings { shadow_rays: Some(0), ..medium.clone() }),
-            ("stop", Settings { stop: 0.0, ..medium.clone() }),
+            ("stop", Settings { unshot_limit: 0.0, ..medium.clone() }),
             ("omega", Settings { omega: 2.0, ..medium.clone() }),
             ("omega", Settings { omega: f64::NAN, ..medium.clone() }),
             ("hemicube-resolution", Settings { hemicube_resolution: 33, ..medium.clone() }),

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use radiosity::colour::Rgb;
-use radiosity::direct::Lamps;
+use radiosity::direct::Emitters;
 use radiosity::geometry::polygon::edges;
 use radiosity::light::Optics;
 use radiosity::mesh::{ElementId, Mesh};
@@ -50,7 +50,7 @@ struct Gauge<'a> {
     surfaces: &'a Surfaces,
     mesh: Mesh,
     optics: Optics,
-    lamps: Lamps,
+    lamps: Emitters,
     occluders: Occluders,
 }
 
@@ -61,7 +61,7 @@ impl Truth {
         let indirect = Lookup::new(&fine, surfaces.extent);
         let uniform = Some(SPACING * surfaces.extent);
         let mesh = Mesh::new(surfaces, &Settings { uniform, ..Settings::medium() });
-        let (lamps, occluders) = (Lamps::new(surfaces, &mesh), Occluders::new(surfaces));
+        let (lamps, occluders) = (Emitters::new(surfaces, &mesh), Occluders::new(surfaces));
         let optics = Optics::new(surfaces, &mesh);
         let gauge = Gauge { surfaces, mesh, optics, lamps, occluders };
         let leaves: Vec<ElementId> = gauge.mesh.leaves().collect();

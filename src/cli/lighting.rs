@@ -25,8 +25,8 @@ const MOST_LIGHTS: usize = 32;
 pub(crate) struct RelightOptions {
     /// Keep lights apart, by the names of materials and lights, so that `radiosity relight` can dim and colour them
     ///
-    /// Each is solved for by itself, on a mesh fine enough for all. `--relightable='desk*,spot*'` keeps those that match
-    /// a pattern together; all others go by their names.
+    /// Each is solved for by itself, on a mesh fine enough for all. `--relightable='desk*,spot*'` keeps those that
+    /// match a pattern together; all others go by their names.
     #[arg(long, value_name = "PATTERN,...", num_args = 0..=1, require_equals = true, value_delimiter = ',')]
     #[arg(help_heading = "Writing", conflicts_with_all = ["history", "snapshots"])]
     relightable: Option<Vec<String>>,
@@ -52,14 +52,14 @@ pub(crate) struct Lighting<'a> {
     pub(crate) settings: &'a Settings,
     pub(crate) checkpoint: &'a CheckpointOptions,
     pub(crate) relight: &'a RelightOptions,
-    pub(crate) stages: &'a [usize],
+    pub(crate) snapshots: &'a [usize],
 }
 
 /// What came of it.
 #[derive(Debug)]
 pub(crate) struct LitScene {
     pub(crate) solution: Solution,
-    pub(crate) stages: Vec<Solution>,
+    pub(crate) snapshots: Vec<Solution>,
     pub(crate) mesh: TriMesh,
 }
 
@@ -72,14 +72,15 @@ impl Lighting<'_> {
     }
 
     fn together(self, interrupt: &Interrupt, meter: &mut Meter) -> Result<LitScene> {
-        let Self { surfaces, settings, stages, .. } = self;
-        let (solution, stages) = self.kept(surfaces, interrupt, meter, |checkpoint, observe| {
-            let plan = Plan { stages, checkpoint: Some(checkpoint) };
-            solve_with(surfaces, settings, plan, observe)
-        })?;
+        let Self { surfaces, settings, snapshots, .. } = self;
+        let (solution, snapshots) =
+            self.kept(surfaces, interrupt, meter, |checkpoint, observe| {
+                let plan = Plan { snapshots, checkpoint: Some(checkpoint) };
+                solve_with(surfaces, settings, plan, observe)
+            })?;
         meter.begin("triangles");
         let mesh = reconstruct(surfaces, &solution);
-        Ok(LitScene { solution, stages, mesh })
+        Ok(LitScene { solution, snapshots, mesh })
     }
 
     fn apart(
@@ -103,7 +104,7 @@ impl Lighting<'_> {
         let parts = groups.into_iter().zip(scenes).zip(parts);
         let parts = parts.map(|((group, scaled), part)| (group, scaled.surfaces, part));
         let mesh = reconstruct_by_light(surfaces, &solution, parts);
-        Ok(LitScene { solution, stages: Vec::new(), mesh })
+        Ok(LitScene { solution, snapshots: Vec::new(), mesh })
     }
 
     /// Does `work` on a `subject` with its checkpoint.

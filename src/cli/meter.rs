@@ -127,7 +127,7 @@ impl Meter {
 
 fn name(phase: Phase) -> &'static str {
     match phase {
-        Phase::Lamps => "lamps",
+        Phase::Emitters => "lamps",
         Phase::Direct => "direct light",
         Phase::Lines => "shadow lines",
         Phase::Shooting => "reflected light",

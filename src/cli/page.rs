@@ -42,7 +42,7 @@ pub(crate) struct SolutionPage<'a> {
     pub(crate) mesh: &'a TriMesh,
     pub(crate) solved: Solved<'a>,
     /// The light on its way.
-    pub(crate) stages: &'a [Solution],
+    pub(crate) snapshots: &'a [Solution],
     pub(crate) camera: &'a Camera,
     pub(crate) display: Display,
     pub(crate) summary: &'a Summary,
@@ -51,12 +51,12 @@ pub(crate) struct SolutionPage<'a> {
 
 impl PageOptions {
     /// Numbers of shots of reflected light after which the light is to be shown, rising.
-    pub(crate) fn stages(&self) -> Vec<usize> {
-        let mut stages: Vec<usize> =
+    pub(crate) fn snapshots(&self) -> Vec<usize> {
+        let mut snapshots: Vec<usize> =
             self.snapshots.iter().map(|&shots| shots as usize - 1).collect();
-        stages.sort_unstable();
-        stages.dedup();
-        stages
+        snapshots.sort_unstable();
+        snapshots.dedup();
+        snapshots
     }
 
     /// Whether the page could be written.
@@ -76,15 +76,18 @@ impl PageOptions {
             return Ok(());
         };
         meter.begin("page");
-        let missing = self.stages().len() - account.stages.len();
+        let missing = self.snapshots().len() - account.snapshots.len();
         if missing > 0 {
             let shots = 1 + account.solved.solution.reflected_shots();
             meter.tell(&format!(
                 "note: {missing} of the snapshots are left out: all was done after {shots} shots"
             ));
         }
-        let mut steps: Vec<Step> =
-            account.stages.iter().map(|stage| early_step(&account.solved, stage)).collect();
+        let mut steps: Vec<Step> = account
+            .snapshots
+            .iter()
+            .map(|snapshot| early_step(&account.solved, snapshot))
+            .collect();
         steps.push(last_step(account));
         let subject = Subject { mesh: account.mesh, solved: Some(account.solved) };
         let lights = &account.solved.surfaces.lights;
@@ -110,11 +113,11 @@ impl PageOptions {
     }
 }
 
-fn early_step(solved: &Solved<'_>, stage: &Solution) -> Step {
-    let mesh = reconstruct(solved.surfaces, stage);
-    let shots = 1 + stage.reflected_shots();
+fn early_step(solved: &Solved<'_>, snapshot: &Solution) -> Step {
+    let mesh = reconstruct(solved.surfaces, snapshot);
+    let shots = 1 + snapshot.reflected_shots();
     let label = if shots == 1 { "1 shot".to_owned() } else { format!("{shots} shots") };
-    Step { label, model: Model::of_solution(&mesh, &stage.mesh) }
+    Step { label, model: Model::of_solution(&mesh, &snapshot.mesh) }
 }
 
 fn last_step(account: &SolutionPage<'_>) -> Step {

@@ -38,9 +38,9 @@ impl SettingsRecord {
             uniform: settings.uniform,
             discontinuity_lines: settings.discontinuity_lines,
             shadow_rays: settings.shadow_rays,
-            stop: settings.stop,
+            stop: settings.unshot_limit,
             max_shots: settings.max_shots,
-            solver: settings.solver.name(),
+            solver: settings.method.name(),
             omega: settings.omega,
             hemicube_resolution: settings.hemicube_resolution,
         }

@@ -132,9 +132,9 @@ impl Solve {
             settings: &settings,
             checkpoint: &self.checkpoint,
             relight: &self.relight,
-            stages: &self.page.stages(),
+            snapshots: &self.page.snapshots(),
         };
-        let LitScene { solution, stages, mesh } = lighting.run(&interrupt, &mut meter)?;
+        let LitScene { solution, snapshots, mesh } = lighting.run(&interrupt, &mut meter)?;
         judge(&solution, &meter)?;
 
         let (camera, exposure) = self.picture.look(&camera, &mesh, Exposure::Automatic);
@@ -156,7 +156,7 @@ impl Solve {
             scene: &scene,
             mesh: &mesh,
             solved,
-            stages: &stages,
+            snapshots: &snapshots,
             camera: &camera,
             display: display(&mesh, exposure),
             summary: &summary,

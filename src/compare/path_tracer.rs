@@ -7,7 +7,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::sobol::SobolSequence;
 use crate::colour::Rgb;
-use crate::direct::Lamps;
+use crate::direct::Emitters;
 use crate::light::Direct;
 use crate::mesh::Mesh;
 use crate::settings::Settings;
@@ -47,14 +47,18 @@ pub(super) struct Found {
 pub(super) struct PathTracer<'a> {
     pub(super) surfaces: &'a Surfaces,
     occluders: Occluders,
-    lamps: Lamps,
+    lamps: Emitters,
 }
 
 impl<'a> PathTracer<'a> {
     pub(super) fn new(surfaces: &'a Surfaces) -> Self {
         // Of the mesh, only textured lamps have something: they are as many as it has patches of them.
         let mesh = Mesh::new(surfaces, &Settings::medium());
-        Self { surfaces, occluders: Occluders::new(surfaces), lamps: Lamps::new(surfaces, &mesh) }
+        Self {
+            surfaces,
+            occluders: Occluders::new(surfaces),
+            lamps: Emitters::new(surfaces, &mesh),
+        }
     }
 
     /// Light straight from emitters, W/m².

@@ -155,7 +155,7 @@ impl ShadowProfile {
             .filter(|tick| (0.0..=length).contains(tick))
             .collect();
         ticks.sort_by(f64::total_cmp);
-        ticks.dedup_by(|a, b| (*a - *b).abs() <= surfaces.tolerance * 10.0);
+        ticks.dedup_by(|a, b| (*a - *b).abs() <= surfaces.epsilon * 10.0);
         Trace { values: self.at.iter().map(value).collect(), ticks }
     }
 }

@@ -175,7 +175,7 @@ fn is_covered(surfaces: &Surfaces, site: &Site) -> bool {
     };
     surfaces.list.iter().enumerate().any(|(number, other)| {
         other.plane.normal.dot(site.normal) < -0.999
-            && other.plane.height(site.place).abs() <= 5.0 * surfaces.tolerance
+            && other.plane.height(site.place).abs() <= 5.0 * surfaces.epsilon
             && !is_partner(number, other)
             && contains(&other.rings, other.plane.flatten(site.place))
     })

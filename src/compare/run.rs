@@ -220,7 +220,7 @@ impl Clock {
     fn switch(&mut self, next: Option<Phase>) {
         let now = Instant::now();
         *match self.phase {
-            Some(Phase::Lamps | Phase::Direct | Phase::Lines) => &mut self.seconds.direct,
+            Some(Phase::Emitters | Phase::Direct | Phase::Lines) => &mut self.seconds.direct,
             Some(Phase::Shooting) => &mut self.seconds.reflected,
             Some(Phase::Gathering) => &mut self.seconds.gathering,
             None => &mut self.seconds.triangles,

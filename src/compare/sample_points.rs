@@ -71,7 +71,7 @@ pub(super) fn shadow_sites(tracer: &PathTracer<'_>, count: usize, seed: u64) -> 
 fn sample_triangles(surfaces: &Surfaces) -> Vec<SampleTriangle> {
     let shown = surfaces.list.iter().enumerate();
     let shown = shown.filter(|(_, s)| s.reflects() && !s.is_emitter());
-    let cuts = Cuts { segments: &[], size: f64::INFINITY, tolerance: surfaces.tolerance };
+    let cuts = Cuts { segments: &[], size: f64::INFINITY, epsilon: surfaces.epsilon };
     let fan = |(surface, ring): (usize, Vec<DVec2>)| {
         (1..ring.len() - 1)
             .map(move |k| {

@@ -1,17 +1,17 @@
-//! Which lamps can shine on which patches, and what may stand in between: found for regions, from all patches down
+//! Which emitters can shine on which patches, and what may stand in between: found for regions, from all patches down
 //! to few, each from what holds for the one around it.
 //!
-//! So a lamp behind a wall is dropped once for all behind that wall, and what a patch must look at is a part of what
-//! its surroundings had to.
+//! So an emitter behind a wall is dropped once for all behind that wall, and what a patch must look at is a part of
+//! what its surroundings had to.
 
 use std::ops::ControlFlow;
 
 use glam::DVec3;
 use obvhs::bvh2::Bvh2;
 
+use super::emitter::Emitter;
+use super::emitters::Emitters;
 use super::ids::EmitterId;
-use super::lamp::Lamp;
-use super::lamps::Lamps;
 use crate::geometry::PlanarPolygon;
 use crate::geometry::hierarchy::hierarchy;
 use crate::mesh::{Mesh, Patch, PatchId};
@@ -27,10 +27,10 @@ const TOGETHER: usize = 16;
 /// Patches whose candidates are looked for between two questions whether to go on.
 const AT_ONCE: usize = 64;
 
-/// A lamp that can shine on a region.
+/// An emitter that can shine on a region.
 #[derive(Clone, Debug)]
 pub(super) struct Candidate {
-    pub(super) lamp: EmitterId,
+    pub(super) emitter: EmitterId,
     pub(super) blockers: Blockers,
     /// No place in the region gets more from it, mean of the channels, W/m².
     pub(super) most: f64,
@@ -47,7 +47,7 @@ pub(super) struct Candidates {
 impl Candidates {
     /// Looks until `observe`, told the share done, breaks off; what is then left has what holds around it.
     pub(super) fn new(
-        lamps: &Lamps,
+        emitters: &Emitters,
         occluders: &Occluders,
         mesh: &Mesh,
         mut observe: impl FnMut(f64) -> ControlFlow<()>,
@@ -56,10 +56,10 @@ impl Candidates {
         let longest = sizes.map(|(low, high)| low.distance(high)).fold(0.0, f64::max);
         let boxes: Vec<_> = mesh.patches.iter().map(boxed).collect();
         let tree = hierarchy(&boxes);
-        let finder = Finder { lamps, occluders, mesh, tree: &tree, large: LARGE * longest };
-        let all = (0..lamps.list.len() as u32)
-            .map(|lamp| Candidate {
-                lamp: EmitterId(lamp),
+        let finder = Finder { emitters, occluders, mesh, tree: &tree, large: LARGE * longest };
+        let all = (0..emitters.list.len() as u32)
+            .map(|emitter| Candidate {
+                emitter: EmitterId(emitter),
                 blockers: occluders.all(),
                 most: f64::INFINITY,
             })
@@ -84,7 +84,7 @@ impl Candidates {
         Self { regions, of }
     }
 
-    /// The lamps that can shine on a patch, in their order.
+    /// The emitters that can shine on a patch, in their order.
     pub(super) fn of(&self, patch: PatchId) -> &[Candidate] {
         self.regions.get(self.of[patch.index()] as usize).map_or(&[], Vec::as_slice)
     }
@@ -97,7 +97,7 @@ type Subtree = (u32, Vec<Candidate>);
 type Region = (Vec<PatchId>, Vec<Candidate>);
 
 struct Finder<'a> {
-    lamps: &'a Lamps,
+    emitters: &'a Emitters,
     occluders: &'a Occluders,
     mesh: &'a Mesh,
     tree: &'a Bvh2,
@@ -165,16 +165,16 @@ impl Finder<'_> {
     fn narrowed(&self, around: &[Candidate], patches: &[PatchId]) -> Vec<Candidate> {
         let (low, high) = self.bounds(patches);
         let reaching = around.iter().filter(|candidate| {
-            let lamp = &self.lamps.list[candidate.lamp.index()];
-            let reaches = |patch: &Patch| lamp.may_reach(patch.polygon());
+            let emitter = &self.emitters.list[candidate.emitter.index()];
+            let reaches = |patch: &Patch| emitter.may_reach(patch.polygon());
             patches.iter().any(|&patch| reaches(&self.mesh[patch]))
         });
         let body = ConvexBody::cuboid(low, high);
-        self.narrowing().unhidden(reaching, &body, |lamp, _| lamp.body())
+        self.narrowing().unhidden(reaching, &body, |emitter, _| emitter.body())
     }
 
     fn narrowing(&self) -> Narrowing<'_> {
-        Narrowing { lamps: self.lamps, occluders: self.occluders }
+        Narrowing { emitters: self.emitters, occluders: self.occluders }
     }
 
     fn patches_under(&self, node: u32) -> Vec<PatchId> {
@@ -196,24 +196,25 @@ impl Finder<'_> {
 /// What candidates are narrowed by.
 #[derive(Clone, Copy)]
 pub(super) struct Narrowing<'a> {
-    pub(super) lamps: &'a Lamps,
+    pub(super) emitters: &'a Emitters,
     pub(super) occluders: &'a Occluders,
 }
 
 impl Narrowing<'_> {
-    /// Of the candidates of what is around a polygon, those of the polygon itself; what stands before lamps of which less
-    /// than `least` can arrive, W/m², is left as it is.
+    /// Of the candidates of what is around a polygon, those of the polygon itself; what stands before emitters of which
+    /// less than `least` can arrive, W/m², is left as it is.
     pub(super) fn of_polygon<'c>(
         self,
         around: impl Iterator<Item = &'c Candidate>,
         receiver: PlanarPolygon<'_>,
         least: f64,
     ) -> Vec<Candidate> {
-        let reaches =
-            |candidate: &&Candidate| self.lamps.list[candidate.lamp.index()].may_reach(receiver);
+        let reaches = |candidate: &&Candidate| {
+            self.emitters.list[candidate.emitter.index()].may_reach(receiver)
+        };
         let (reaching, body) = (around.filter(reaches), ConvexBody::polygon(receiver));
-        let source = |lamp: &Lamp, most: f64| {
-            if most < least { None } else { lamp.body_above(receiver) }
+        let source = |emitter: &Emitter, most: f64| {
+            if most < least { None } else { emitter.body_above(receiver) }
         };
         self.unhidden(reaching, &body, source)
     }
@@ -223,18 +224,18 @@ impl Narrowing<'_> {
         self,
         candidates: impl Iterator<Item = &'c Candidate>,
         receiver: &ConvexBody,
-        source: impl Fn(&Lamp, f64) -> Option<ConvexBody>,
+        source: impl Fn(&Emitter, f64) -> Option<ConvexBody>,
     ) -> Vec<Candidate> {
-        let narrowed = |Candidate { lamp: number, blockers, .. }: &Candidate| {
-            let lamp = &self.lamps.list[number.index()];
-            let most = lamp.most_on(receiver);
-            let source = if blockers.is_clear() { None } else { source(lamp, most) };
-            let ignored = |surface| lamp.is_part(surface);
+        let narrowed = |Candidate { emitter: number, blockers, .. }: &Candidate| {
+            let emitter = &self.emitters.list[number.index()];
+            let most = emitter.most_on(receiver);
+            let source = if blockers.is_clear() { None } else { source(emitter, most) };
+            let ignored = |surface| emitter.is_part(surface);
             let blockers = match source {
                 Some(source) => self.occluders.narrowed(blockers, &source, receiver, ignored),
                 None => blockers.clone(),
             };
-            (blockers != Blockers::Opaque).then_some(Candidate { lamp: *number, blockers, most })
+            (blockers != Blockers::Opaque).then_some(Candidate { emitter: *number, blockers, most })
         };
         candidates.filter_map(narrowed).collect()
     }

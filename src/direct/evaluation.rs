@@ -1,61 +1,65 @@
-//! Light at one place: exact where that is worth it, else by rays, of what matters little of all lamps together.
+//! Light at one place: exact where that is worth it, else by rays, of what matters little of all emitters together.
 
 use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::candidates::Candidate;
+use super::emitter::Emitter;
+use super::emitters::Emitters;
 use super::ids::EmitterId;
-use super::lamp::Lamp;
-use super::lamps::Lamps;
 use super::pool::Pool;
 use super::punctual;
-use super::view::{LampView, Seen};
+use super::view::{EmitterView, Seen};
 use super::work::{Evaluated, WorkCounters};
 use crate::colour::{Rgb, strength};
 use crate::light::Direct;
 use crate::scene::Light;
 use crate::visibility::{Blockers, CROWDED, Occluders, SurfacePoint};
 
-/// Lamps that send more than this many tolerated errors are looked at exactly, if that can be done.
+/// Emitters that send more than this many tolerated errors are looked at exactly, if that can be done.
 const EXACT: f64 = 4.0;
 
-/// Most shadows that are cut out of a lamp for each tolerated error that it sends.
+/// Most shadows that are cut out of an emitter for each tolerated error that it sends.
 const SHADOWS: f64 = 2.0;
 
-/// Lamps that send less than this share of a tolerated error are looked at together.
+/// Emitters that send less than this share of a tolerated error are looked at together.
 pub(super) const POOLED: f64 = 0.5;
 
 /// Share of a tolerated error that looking by rays may make.
 const SHARE: f64 = 0.5;
 
-/// Light at one place, lamp by lamp.
+/// Light at one place, emitter by emitter.
 pub(super) struct Evaluation<'a> {
-    lamps: &'a Lamps,
+    emitters: &'a Emitters,
     occluders: &'a Occluders,
     receiver: SurfacePoint,
     known: Direct,
-    /// Lamps that something may stand before.
-    open: SmallVec<[(EmitterId, &'a Blockers, LampView<'a>); 2]>,
+    /// Emitters that something may stand before.
+    open: SmallVec<[(EmitterId, &'a Blockers, EmitterView<'a>); 2]>,
     pool: Pool,
     work: WorkCounters,
 }
 
 impl<'a> Evaluation<'a> {
-    /// Of no lamp yet, at a place with a unit normal.
-    pub(super) fn new(lamps: &'a Lamps, occluders: &'a Occluders, receiver: SurfacePoint) -> Self {
+    /// Of no emitter yet, at a place with a unit normal.
+    pub(super) fn new(
+        emitters: &'a Emitters,
+        occluders: &'a Occluders,
+        receiver: SurfacePoint,
+    ) -> Self {
         let (known, open, pool) = (Direct::default(), SmallVec::new(), Pool::default());
         let work = WorkCounters::default();
-        Self { lamps, occluders, receiver, known, open, pool, work }
+        Self { emitters, occluders, receiver, known, open, pool, work }
     }
 
-    /// Adds the light of a lamp that looks small and does not matter by itself; false if it looks large.
+    /// Adds the light of an emitter that looks small and does not matter by itself; false if it looks large.
     pub(super) fn add_faint(
         &mut self,
-        Candidate { lamp: number, blockers, .. }: &Candidate,
+        Candidate { emitter: number, blockers, .. }: &Candidate,
     ) -> bool {
-        let lamps = self.lamps;
-        let glance = lamps.list[number.index()].glance(self.receiver);
-        let Some((sent, middle)) = glance.filter(|_| lamps.rows.is_none()) else { return false };
+        let emitters = self.emitters;
+        let glance = emitters.list[number.index()].glance(self.receiver);
+        let Some((sent, middle)) = glance.filter(|_| emitters.rows.is_none()) else { return false };
         if sent.max_element() > 0.0 {
             self.work.evaluations += 1;
             self.push(*number, sent, blockers, middle);
@@ -63,7 +67,7 @@ impl<'a> Evaluation<'a> {
         true
     }
 
-    /// Takes the light of a lamp, if all is seen, or else puts it to those that are looked at together, by rays to
+    /// Takes the light of an emitter, if all is seen, or else puts it to those that are looked at together, by rays to
     /// a place on it.
     fn push(&mut self, number: EmitterId, sent: Rgb, blockers: &Blockers, at: DVec3) {
         self.known.unoccluded += sent;
@@ -74,15 +78,15 @@ impl<'a> Evaluation<'a> {
         }
     }
 
-    /// Adds a lamp's light if it can be told at once.
-    pub(super) fn add(&mut self, Candidate { lamp: number, blockers, .. }: &'a Candidate) {
-        let (lamps, occluders) = (self.lamps, self.occluders);
-        let lamp = &lamps.list[number.index()];
-        if let Lamp::Point(point) = lamp {
+    /// Adds an emitter's light if it can be told at once.
+    pub(super) fn add(&mut self, Candidate { emitter: number, blockers, .. }: &'a Candidate) {
+        let (emitters, occluders) = (self.emitters, self.occluders);
+        let emitter = &emitters.list[number.index()];
+        if let Emitter::Point(point) = emitter {
             self.add_point(*number, point, blockers);
-        } else if let Some(view) = lamp.view(self.receiver) {
+        } else if let Some(view) = emitter.view(self.receiver) {
             self.work.evaluations += 1;
-            let seen = match lamps.rows {
+            let seen = match emitters.rows {
                 _ if blockers.is_clear() => Some(view.all()),
                 rows => rows.map(|rows| view.sampled_evenly(occluders, rows)),
             };
@@ -94,13 +98,13 @@ impl<'a> Evaluation<'a> {
     }
 
     fn add_point(&mut self, number: EmitterId, light: &Light, blockers: &Blockers) {
-        let found = punctual::irradiance(light, self.receiver, self.lamps.blur);
+        let found = punctual::irradiance(light, self.receiver, self.emitters.blur);
         let Some((sent, source)) = found else { return };
         self.work.evaluations += 1;
         self.push(number, sent, blockers, source.end(self.receiver.position, self.occluders));
     }
 
-    fn take(&mut self, view: &LampView<'_>, seen: Seen) {
+    fn take(&mut self, view: &EmitterView<'_>, seen: Seen) {
         self.known = self.known + view.light(seen);
         self.work.rays += seen.rays;
     }
@@ -125,9 +129,9 @@ impl<'a> Evaluation<'a> {
                 self.push(number, view.unoccluded(), blockers, middle);
             }
         }
-        let (lamps, occluders) = (self.lamps, self.occluders);
-        let sees = |lamp: EmitterId, at: DVec3| {
-            let is_own = |surface| lamps.list[lamp.index()].is_part(surface);
+        let (emitters, occluders) = (self.emitters, self.occluders);
+        let sees = |emitter: EmitterId, at: DVec3| {
+            let is_own = |surface| emitters.list[emitter.index()].is_part(surface);
             !occluders.blocks_beyond(self.receiver.position, at, is_own)
         };
         let (light, rays) = self.pool.shine(SHARE * error, sees);
@@ -136,11 +140,11 @@ impl<'a> Evaluation<'a> {
         Evaluated { light: self.known, work: self.work }
     }
 
-    /// What is seen of a lamp that much may stand before.
-    fn crowded(&self, view: &LampView<'_>, blockers: &Blockers, error: f64) -> Seen {
+    /// What is seen of an emitter that much may stand before.
+    fn crowded(&self, view: &EmitterView<'_>, blockers: &Blockers, error: f64) -> Seen {
         let occluders = self.occluders;
         let sent = strength(view.unoccluded());
-        // The more a lamp sends, the more may be cut out of it before rays would do as well.
+        // The more an emitter sends, the more may be cut out of it before rays would do as well.
         let most = (SHADOWS * sent / error.max(f64::MIN_POSITIVE)) as usize;
         let exact = (sent > EXACT * error).then(|| view.exact(occluders, blockers, most));
         let sampled = || view.sampled(occluders, SHARE * error / sent * view.weight);

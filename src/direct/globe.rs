@@ -1,4 +1,4 @@
-//! Closed convex bodies of one exitance, such as the bulbs of lamps: one lamp, however many facets they have.
+//! Closed convex bodies of one exitance, such as the bulbs of emitters: one emitter, however many facets they have.
 //!
 //! Radiance does not change along rays, so what such a body sends to a place is what a flat polygon with the same
 //! outline would: its silhouette, exact for any convex body.
@@ -9,14 +9,15 @@ use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
 use super::profile::RadianceProfile;
-use super::view::LampView;
+use super::view::EmitterView;
 use crate::colour::Rgb;
 use crate::geometry::Weld;
 use crate::geometry::{HalfSpace, Polygon};
 use crate::surface::{Surface, SurfaceId, Surfaces};
 use crate::visibility::SurfacePoint;
 
-/// Bodies of fewer facets are lamps facet by facet: few enough, and their edges make shadows with lines of their own.
+/// Bodies of fewer facets are emitters facet by facet: few enough, and their edges make shadows with lines of their
+/// own.
 const LEAST_FACETS: usize = 13;
 
 /// How far a corner may be in front of a neighbour's plane, as a share of the body's size: vertices are rounded.
@@ -39,7 +40,7 @@ pub(super) struct Globe {
 
 /// All globes among surfaces that emit.
 pub(super) fn globes(surfaces: &Surfaces) -> Vec<Globe> {
-    let mut weld = Weld::new(surfaces.tolerance);
+    let mut weld = Weld::new(surfaces.epsilon);
     let is_glowing = |surface: &Surface| {
         let material = &surfaces[surface.material];
         surface.is_emitter() && material.emission_texture.is_none() && surface.rings.len() == 1
@@ -150,7 +151,7 @@ impl Globe {
         (corners.len() + members.len() == all_edges.len() + 2).then(|| Self {
             surfaces: members.iter().map(|&facet| glowing[facet]).collect(),
             corners: corners.iter().map(place).collect(),
-            fronts: members.iter().map(|&f| front(surface(f), surfaces.tolerance)).collect(),
+            fronts: members.iter().map(|&f| front(surface(f), surfaces.epsilon)).collect(),
             edges: all_edges,
             exitance,
             low,
@@ -186,12 +187,12 @@ impl Globe {
     }
 
     /// As a place with a unit normal sees it.
-    pub(super) fn view(&self, receiver: SurfacePoint) -> Option<LampView<'_>> {
+    pub(super) fn view(&self, receiver: SurfacePoint) -> Option<EmitterView<'_>> {
         let (outline, normal) = self.silhouette(receiver.position)?;
         let horizon = HalfSpace::new(receiver.position, receiver.normal);
         let polygon = horizon.clip(&outline);
         let profile = RadianceProfile::Diffuse;
-        (!polygon.is_empty()).then(|| LampView {
+        (!polygon.is_empty()).then(|| EmitterView {
             weight: profile.weight(receiver, &polygon),
             receiver,
             polygon,

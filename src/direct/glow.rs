@@ -1,4 +1,4 @@
-//! Lamps of surfaces that glow by a picture.
+//! Emitters of surfaces that glow by a picture.
 
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
@@ -44,7 +44,7 @@ fn halves(surfaces: &Surfaces, surface: &Surface, outline: &Convex) -> Option<[(
     let middle = low.midpoint(high);
     let along = |axis: DVec2| {
         let ends = [middle, middle + axis].map(|p| uv.inverse().transform_point2(p));
-        let [left, right] = Line::through(ends).split(outline, surfaces.tolerance);
+        let [left, right] = Line::through(ends).split(outline, surfaces.epsilon);
         let half = |half: Convex| {
             let mean = mean_texture(surfaces, surface, &half)[1];
             (half, mean)

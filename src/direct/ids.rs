@@ -3,6 +3,6 @@
 use crate::ids::id;
 
 id! {
-    /// Names one of the [`Lamps`](super::Lamps) of one scene.
+    /// Names one of the [`Emitters`](super::Emitters) of one scene.
     EmitterId
 }

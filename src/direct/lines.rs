@@ -1,9 +1,9 @@
-//! Discontinuity lines: where the view of a lamp begins or ceases to be cut by an edge.
+//! Discontinuity lines: where the view of an emitter begins or ceases to be cut by an edge.
 //!
-//! The part of a lamp that a receiver sees changes its shape where the receiver crosses a plane through
-//! a corner of the lamp and an edge of an occluder, or through an edge of the lamp and a corner of an
+//! The part of an emitter that a receiver sees changes its shape where the receiver crosses a plane through
+//! a corner of the emitter and an edge of an occluder, or through an edge of the emitter and a corner of an
 //! occluder; there irradiance has a kink or a bend. Such planes meet the receiver in projections: of
-//! the occluder's edge from the lamp's corner, and of the lamp's edge through the occluder's corner.
+//! the occluder's edge from the emitter's corner, and of the emitter's edge through the occluder's corner.
 //!
 //! Based on: D¹ and D² events of [Heckbert 1992] and [Lischinski, Tampieri and Greenberg 1992], without
 //! those of three edges, which are curved and weaker. Not every line is an event: what else stands in
@@ -15,16 +15,16 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
+use super::emitter::AreaEmitter;
 use super::ids::EmitterId;
-use super::lamp::AreaLamp;
 use crate::geometry::{HalfSpace, PlanarPolygon};
 use crate::visibility::{OccluderId, Occluders};
 
-/// An edge as high over the receiver as this share of the lamp's corner throws no shadow worth a line:
+/// An edge as high over the receiver as this share of the emitter's corner throws no shadow worth a line:
 /// it would be very far away.
 const HIGHEST: f64 = 0.999;
 
-/// Lamps of more corners are round: of what an edge hides of them, only the first and the last corner make lines.
+/// Emitters of more corners are round: of what an edge hides of them, only the first and the last corner make lines.
 const ROUND: usize = 6;
 
 /// A discontinuity line, perhaps.
@@ -34,14 +34,14 @@ pub struct EventLine {
     pub ends: [DVec3; 2],
     /// What interpolation over the receiver's width may lose for want of it, at most, W/m² of irradiance.
     pub bound: f64,
-    /// The number of the lamp whose view changes.
-    pub(crate) lamp: EmitterId,
+    /// The number of the emitter whose view changes.
+    pub(crate) emitter: EmitterId,
 }
 
-/// A lamp that shines on a receiver.
+/// An emitter that shines on a receiver.
 pub(super) struct Shining<'a> {
     pub(super) number: EmitterId,
-    pub(super) lamp: &'a AreaLamp,
+    pub(super) emitter: &'a AreaEmitter,
     /// The part of it above the receiver.
     pub(super) above: &'a [DVec3],
     pub(super) receiver: PlanarPolygon<'a>,
@@ -52,7 +52,7 @@ pub(super) struct Shining<'a> {
 }
 
 impl Shining<'_> {
-    /// The lines that occluders make with the lamp.
+    /// The lines that occluders make with the emitter.
     pub(super) fn lines(
         &self,
         occluders: &Occluders,
@@ -66,7 +66,7 @@ impl Shining<'_> {
     /// The lines that one occluder makes.
     fn lines_by(&self, occluders: &Occluders, occluder: OccluderId, lines: &mut Vec<EventLine>) {
         let receiver = self.receiver.plane;
-        let between = self.lamp.front.clip(&receiver.clip(occluders.polygon(occluder).corners));
+        let between = self.emitter.front.clip(&receiver.clip(occluders.polygon(occluder).corners));
         let n = between.len();
         for (k, &from) in between.iter().enumerate() {
             let edge = [from, between[(k + 1) % n]];
@@ -93,7 +93,7 @@ impl Shining<'_> {
         }
     }
 
-    /// The corners of the lamp from which an edge throws lines.
+    /// The corners of the emitter from which an edge throws lines.
     fn eyes(&self, [from, to]: [DVec3; 2]) -> SmallVec<[DVec3; 8]> {
         if self.above.len() <= ROUND {
             return self.above.into();
@@ -124,14 +124,14 @@ impl Shining<'_> {
     /// Adds a line if it may matter.
     ///
     /// Over a width w, interpolation loses at most U min(1, w/4W) min(1, length/w) of what crosses a border of width
-    /// W, where the lamp sends U.
+    /// W, where the emitter sends U.
     fn keep(&self, ends: [DVec3; 2], penumbra: f64, lines: &mut Vec<EventLine>) {
         let corners = self.receiver.corners;
         let width = corners[0].distance(corners[corners.len() / 2]);
         let steep = (width / (4.0 * penumbra).max(f64::MIN_POSITIVE)).min(1.0);
         let bound = self.most * steep * (ends[0].distance(ends[1]) / width).min(1.0);
         if bound > self.least {
-            lines.push(EventLine { ends, bound, lamp: self.number });
+            lines.push(EventLine { ends, bound, emitter: self.number });
         }
     }
 }

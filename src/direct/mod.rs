@@ -14,11 +14,11 @@ mod globe;
 mod glow;
 mod punctual;
 
-mod lamp;
+mod emitter;
 
 mod sky;
 
-mod lamps;
+mod emitters;
 
 mod rough;
 mod sent;
@@ -30,11 +30,11 @@ mod pool;
 
 mod evaluation;
 
-mod patch_light;
+mod direct_light;
 
+pub use direct_light::{DirectLight, PotentialEmitters};
+pub use emitters::Emitters;
 pub use ids::EmitterId;
-pub use lamps::Lamps;
 pub use lines::EventLine;
-pub use patch_light::{Outlook, PatchLight};
 pub(crate) use sent::Sent;
 pub use work::{Evaluated, WorkCounters};

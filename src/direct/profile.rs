@@ -1,4 +1,4 @@
-//! How the radiance of a lamp depends on the direction from which it comes, and what arrives of it.
+//! How the radiance of an emitter depends on the direction from which it comes, and what arrives of it.
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use crate::form_factor::contour::point_to_polygon_above;
 use crate::geometry::Polygon;
 use crate::visibility::SurfacePoint;
 
-/// How a lamp's radiance depends on the direction from which it comes.
+/// How an emitter's radiance depends on the direction from which it comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum RadianceProfile {
     /// Not at all, from a surface.
@@ -29,7 +29,7 @@ impl RadianceProfile {
         }
     }
 
-    /// Radiance along a unit direction towards the lamp, as a share of the largest.
+    /// Radiance along a unit direction towards the emitter, as a share of the largest.
     pub(super) fn radiance(self, direction: DVec3) -> f64 {
         match self {
             Self::Diffuse | Self::UniformSky => 1.0,

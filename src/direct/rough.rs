@@ -2,25 +2,25 @@
 
 use glam::DVec3;
 
+use super::emitter::Emitter;
+use super::emitters::Emitters;
 use super::ids::EmitterId;
-use super::lamp::Lamp;
-use super::lamps::Lamps;
 use super::punctual;
 use super::unbiased::place_on;
 use crate::colour::Rgb;
 use crate::light::Direct;
 use crate::visibility::{Occluders, SurfacePoint};
 
-/// Rays from a place, at least: where there are fewer lamps, several go to each.
+/// Rays from a place, at least: where there are fewer emitters, several go to each.
 const RAYS: usize = 8;
 
-/// The number of a lamp, what it sends to a place if nothing hides it, W/m², and where a ray to it ends.
-type LampRay = (EmitterId, Rgb, DVec3);
+/// The number of an emitter, what it sends to a place if nothing hides it, W/m², and where a ray to it ends.
+type EmitterRay = (EmitterId, Rgb, DVec3);
 
-impl Lamps {
-    /// What arrives at a point of a surface, by rays to places on the lamps that `random` chooses, even in 0..1.
+impl Emitters {
+    /// What arrives at a point of a surface, by rays to places on the emitters that `random` chooses, even in 0..1.
     ///
-    /// What would arrive if nothing stood between is exact; of that counts what the rays reach. Of many lamps, those
+    /// What would arrive if nothing stood between is exact; of that counts what the rays reach. Of many emitters, those
     /// that send most are asked for all, each as often as it sends.
     pub fn rough(
         &self,
@@ -50,17 +50,17 @@ impl Lamps {
         Direct { irradiance: irradiance.min(unoccluded), unoccluded }
     }
 
-    /// What each lamp sends, or each of some parts of a few, and places on them.
+    /// What each emitter sends, or each of some parts of a few, and places on them.
     fn sent(
         &self,
         receiver: SurfacePoint,
         occluders: &Occluders,
         random: &mut impl FnMut() -> f64,
-    ) -> Vec<LampRay> {
+    ) -> Vec<EmitterRay> {
         let each = RAYS.div_ceil(self.list.len().max(1));
         let mut sent = Vec::new();
-        for (number, lamp) in (0..).map(EmitterId).zip(&self.list) {
-            if let Some(view) = lamp.view(receiver) {
+        for (number, emitter) in (0..).map(EmitterId).zip(&self.list) {
+            if let Some(view) = emitter.view(receiver) {
                 let light = view.unoccluded() / each as f64;
                 let shift = [random(), random()];
                 sent.extend((0..each).map(|k| {
@@ -69,7 +69,7 @@ impl Lamps {
                     let across = (shift[1] + k as f64 * 0.618_033_988_749_895).fract();
                     (number, light, place_on(&view.polygon, [along, across]).0)
                 }));
-            } else if let Lamp::Point(point) = lamp
+            } else if let Emitter::Point(point) = emitter
                 && let Some((light, source)) = punctual::irradiance(point, receiver, self.blur)
             {
                 sent.push((number, light, source.end(receiver.position, occluders)));

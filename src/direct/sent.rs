@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
-use super::lamp::Lamp;
-use super::lamps::Lamps;
+use super::emitter::Emitter;
+use super::emitters::Emitters;
 use super::punctual::intensity;
 use crate::colour::{LUMENS_PER_WATT, Rgb};
 use crate::scene::Light;
@@ -28,16 +28,16 @@ pub(crate) struct Sent {
     pub(crate) on_backs: Rgb,
 }
 
-impl Lamps {
+impl Emitters {
     /// What the lights at points send out; `is_back` tells of a surface whether nothing is behind its back but black.
     pub(crate) fn sent_by_points(
         &self,
         occluders: &Occluders,
         is_back: impl Fn(SurfaceId) -> bool + Sync,
     ) -> Sent {
-        let sent = |lamp: &Lamp| match lamp {
-            Lamp::Point(light) => sent_by(light, occluders, &is_back),
-            Lamp::Area(_) | Lamp::Globe(_) => None,
+        let sent = |emitter: &Emitter| match emitter {
+            Emitter::Point(light) => sent_by(light, occluders, &is_back),
+            Emitter::Area(_) | Emitter::Globe(_) => None,
         };
         let each: Vec<Sent> = self.list.par_iter().filter_map(sent).collect();
         each.into_iter().fold(Sent::default(), |sum, sent| Sent {

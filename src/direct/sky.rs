@@ -1,12 +1,12 @@
 //! The sky: a box of polygons far beyond the scene, and their light in closed form.
 //!
-//! As polygons, pieces of a sky are cut by what hides them like any lamp, so that the light of a window is exact.
+//! As polygons, pieces of a sky are cut by what hides them like any emitter, so that the light of a window is exact.
 
 use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::lamp::AreaLamp;
+use super::emitter::AreaEmitter;
 use super::profile::RadianceProfile;
 use crate::colour::Rgb;
 use crate::form_factor::contour::point_to_polygon_above;
@@ -21,7 +21,7 @@ const FAR: f64 = 1e4;
 /// two in each direction.
 ///
 /// They end at the height of the scene's top, so that nothing that faces down sees them.
-pub(super) fn lamps(surfaces: &Surfaces, sky: Sky, irradiance: Rgb) -> Vec<AreaLamp> {
+pub(super) fn emitters(surfaces: &Surfaces, sky: Sky, irradiance: Rgb) -> Vec<AreaEmitter> {
     let Some((low, high)) = surfaces.bounds() else { return Vec::new() };
     let (centre, size) = (low.midpoint(high).with_y(high.y), FAR * surfaces.extent);
     let (exitance, profile) = match sky {
@@ -29,17 +29,17 @@ pub(super) fn lamps(surfaces: &Surfaces, sky: Sky, irradiance: Rgb) -> Vec<AreaL
         // E = 7/9 π Lz.
         Sky::Overcast => (irradiance * 9.0 / 7.0, RadianceProfile::OvercastSky),
     };
-    let lamp = |corners: [DVec3; 4]| {
+    let emitter = |corners: [DVec3; 4]| {
         let corners: Polygon = corners.iter().map(|&corner| centre + corner * size).collect();
         let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
-        AreaLamp { front: HalfSpace::new(corners[0], normal), corners, exitance, profile }
+        AreaEmitter { front: HalfSpace::new(corners[0], normal), corners, exitance, profile }
     };
-    squares().map(lamp).collect()
+    squares().map(emitter).collect()
 }
 
 /// A sun that shines along a unit `direction`, with this irradiance of a plane that faces it, W/m²: a square of
 /// the disc's solid angle.
-pub(super) fn sun(surfaces: &Surfaces, direction: DVec3, irradiance: Rgb) -> Option<AreaLamp> {
+pub(super) fn sun(surfaces: &Surfaces, direction: DVec3, irradiance: Rgb) -> Option<AreaEmitter> {
     let (low, high) = surfaces.bounds()?;
     let (middle, distance) = (low.midpoint(high), FAR * surfaces.extent);
     let half = distance * SUN_RADIUS.tan() * PI.sqrt() / 2.0;
@@ -50,7 +50,7 @@ pub(super) fn sun(surfaces: &Surfaces, direction: DVec3, irradiance: Rgb) -> Opt
         Polygon::from_slice(&[centre - u - v, centre + u - v, centre + u + v, centre - u + v]);
     let factor = point_to_polygon_above(middle, -direction, &corners);
     let (front, exitance) = (HalfSpace::new(centre, direction), irradiance / factor);
-    Some(AreaLamp { corners, front, exitance, profile: RadianceProfile::Diffuse })
+    Some(AreaEmitter { corners, front, exitance, profile: RadianceProfile::Diffuse })
 }
 
 /// The squares of a box of height 1 around the origin, without a bottom, facing inward.

@@ -1,22 +1,22 @@
-//! Direct light by a ray to each lamp: right on the mean, and cheap.
+//! Direct light by a ray to each emitter: right on the mean, and cheap.
 
 use glam::DVec3;
 
-use super::lamp::Lamp;
-use super::lamps::Lamps;
+use super::emitter::Emitter;
+use super::emitters::Emitters;
 use super::punctual;
-use super::view::LampView;
+use super::view::EmitterView;
 use crate::colour::Rgb;
 use crate::visibility::{Occluders, SurfacePoint};
 
-/// Lamps that send less than this share of the light are looked at as much more seldom.
+/// Emitters that send less than this share of the light are looked at as much more seldom.
 const WORTH_A_RAY: f64 = 0.1;
 
-impl Lamps {
+impl Emitters {
     /// What arrives at a point of a surface, W/m², on the mean over the values that `random` gives, even
     /// in 0..1; it may be below zero.
     ///
-    /// What would arrive if nothing stood between is exact, and a ray to a place on the lamp tells of what is
+    /// What would arrive if nothing stood between is exact, and a ray to a place on the emitter tells of what is
     /// hidden. So there is no noise where nothing is.
     pub fn sample_unbiased(
         &self,
@@ -24,8 +24,8 @@ impl Lamps {
         receiver: SurfacePoint,
         mut random: impl FnMut() -> f64,
     ) -> Rgb {
-        let views: Vec<LampView<'_>> =
-            self.list.iter().filter_map(|lamp| lamp.view(receiver)).collect();
+        let views: Vec<EmitterView<'_>> =
+            self.list.iter().filter_map(|emitter| emitter.view(receiver)).collect();
         let all: f64 = views.iter().map(|view| view.unoccluded().element_sum()).sum();
         let mut light = Rgb::ZERO;
         for view in &views {
@@ -37,8 +37,8 @@ impl Lamps {
             let hidden = if is_hidden { area * view.kernel(at) / chance } else { 0.0 };
             light += sent - view.exitance * hidden;
         }
-        for lamp in &self.list {
-            if let Lamp::Point(point) = lamp
+        for emitter in &self.list {
+            if let Emitter::Point(point) = emitter
                 && let Some(direct) = punctual::shine(point, occluders, receiver)
             {
                 light += direct.irradiance;

@@ -1,4 +1,4 @@
-//! A lamp as a place sees it, and how much of it that is.
+//! An emitter as a place sees it, and how much of it that is.
 
 use glam::DVec3;
 
@@ -13,9 +13,9 @@ use crate::visibility::{Blockers, Occluders, Pyramid, SurfacePoint};
 /// Polygons of a smaller area than this share of the squared distance are taken for points.
 pub(super) const FAR: f64 = 0.01;
 
-/// The part of a lamp above the horizon of a place, as a convex polygon.
+/// The part of an emitter above the horizon of a place, as a convex polygon.
 #[derive(Clone, Debug)]
-pub(super) struct LampView<'a> {
+pub(super) struct EmitterView<'a> {
     pub(super) receiver: SurfacePoint,
     pub(super) polygon: Polygon,
     /// Unit normal of the polygon, towards the place.
@@ -25,11 +25,11 @@ pub(super) struct LampView<'a> {
     pub(super) profile: RadianceProfile,
     /// The whole polygon's irradiance as a share of the exitance.
     pub(super) weight: f64,
-    /// Surfaces that are the lamp itself and hide nothing of it.
+    /// Surfaces that are the emitter itself and hide nothing of it.
     pub(super) own: &'a [SurfaceId],
 }
 
-/// How much of a lamp is seen.
+/// How much of an emitter is seen.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seen {
     /// Irradiance as a share of the exitance.
@@ -38,7 +38,7 @@ pub(super) struct Seen {
     pub(super) rays: u64,
 }
 
-impl LampView<'_> {
+impl EmitterView<'_> {
     /// What arrives if nothing stands between, W/m².
     pub(super) fn unoccluded(&self) -> Rgb {
         self.exitance * self.weight

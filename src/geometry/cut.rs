@@ -17,7 +17,7 @@ pub struct Cuts<'a> {
     /// Longest side of a piece along the axes, m; may be exceeded by a quarter.
     pub size: f64,
     /// Distances that count as zero, m.
-    pub tolerance: f64,
+    pub epsilon: f64,
 }
 
 /// A convex cell and the parts of segments that run through its inside.
@@ -34,10 +34,10 @@ pub fn convex_pieces(rings: &[Ring], cuts: &Cuts<'_>) -> Vec<Convex> {
     let segments = outline.chain(cuts.segments.iter().copied());
 
     let mut pieces = Vec::new();
-    let mut cells = vec![BspCell::new(rectangle.into(), segments, cuts.tolerance)];
+    let mut cells = vec![BspCell::new(rectangle.into(), segments, cuts.epsilon)];
     while let Some(cell) = cells.pop() {
-        if let Some(line) = grid_line(&cell, cuts).or_else(|| segment_line(&cell, cuts.tolerance)) {
-            cells.extend(cell.split(&line, cuts.tolerance));
+        if let Some(line) = grid_line(&cell, cuts).or_else(|| segment_line(&cell, cuts.epsilon)) {
+            cells.extend(cell.split(&line, cuts.epsilon));
         } else if contains(rings, centroid(&cell.polygon)) {
             pieces.push(cell.polygon);
         }
@@ -47,19 +47,18 @@ pub fn convex_pieces(rings: &[Ring], cuts: &Cuts<'_>) -> Vec<Convex> {
 
 impl BspCell {
     /// Keeps of the segments what is inside.
-    fn new(polygon: Convex, segments: impl Iterator<Item = Segment>, tolerance: f64) -> Self {
+    fn new(polygon: Convex, segments: impl Iterator<Item = Segment>, epsilon: f64) -> Self {
         let borders = borders(&polygon);
-        let segments = segments.filter_map(|s| clip(s, &borders, tolerance)).collect();
+        let segments = segments.filter_map(|s| clip(s, &borders, epsilon)).collect();
         Self { polygon, segments }
     }
 
     /// The two sides of a line; segments along it are on the border now and dropped.
-    fn split(&self, line: &Line, tolerance: f64) -> impl Iterator<Item = Self> {
+    fn split(&self, line: &Line, epsilon: f64) -> impl Iterator<Item = Self> {
         let parts = [1, 0].map(|side| {
-            let polygon = line.split(&self.polygon, tolerance)[side].clone();
+            let polygon = line.split(&self.polygon, epsilon)[side].clone();
             let segments = self.segments.iter();
-            let segments =
-                segments.filter_map(|&s| line.split_segment(s, tolerance)[side]).collect();
+            let segments = segments.filter_map(|&s| line.split_segment(s, epsilon)[side]).collect();
             polygon.map(|polygon| Self { polygon, segments })
         });
         parts.into_iter().flatten()
@@ -72,15 +71,14 @@ fn grid_line(cell: &BspCell, cuts: &Cuts<'_>) -> Option<Line> {
     let [low, high] = bounds(&cell.polygon);
     let extent = high - low;
     // Rounding must not decide how squares are cut.
-    let axis = usize::from(extent.y > extent.x + cuts.tolerance);
-    let parts = ((extent[axis] - cuts.tolerance) / cuts.size - 0.25).ceil();
+    let axis = usize::from(extent.y > extent.x + cuts.epsilon);
+    let parts = ((extent[axis] - cuts.epsilon) / cuts.size - 0.25).ceil();
     if parts < 2.0 {
         return None;
     }
     let step = extent[axis] / parts;
     let even = low[axis] + (parts / 2.0).floor() * step;
-    let parallel =
-        cell.segments.iter().filter(|[a, b]| (a[axis] - b[axis]).abs() <= cuts.tolerance);
+    let parallel = cell.segments.iter().filter(|[a, b]| (a[axis] - b[axis]).abs() <= cuts.epsilon);
     let at = parallel
         .map(|[a, _]| a[axis])
         .filter(|at| (at - even).abs() < 0.4 * step)
@@ -93,20 +91,20 @@ fn grid_line(cell: &BspCell, cuts: &Cuts<'_>) -> Option<Line> {
 }
 
 /// The line along the segment that needs the least extension to cross its cell.
-fn segment_line(cell: &BspCell, tolerance: f64) -> Option<Line> {
+fn segment_line(cell: &BspCell, epsilon: f64) -> Option<Line> {
     let reach = |&segment: &Segment| {
         let line = Line::through(segment);
-        let [left, _] = line.split(&cell.polygon, tolerance);
+        let [left, _] = line.split(&cell.polygon, epsilon);
         let chord: Vec<DVec2> = left
             .iter()
             .flatten()
             .copied()
-            .filter(|&p| line.side(p, tolerance * 2.0) == 0.0)
+            .filter(|&p| line.side(p, epsilon * 2.0) == 0.0)
             .collect();
         let length = segment[0].distance(segment[1]);
         let longest = chord.iter().map(|p| p.distance(chord[0])).fold(length, f64::max);
         // Rounding must not decide between segments of equal length, or that all cross the whole cell.
-        [length / longest * 1e6, length / tolerance].map(f64::round)
+        [length / longest * 1e6, length / epsilon].map(f64::round)
     };
     let best = cell.segments.iter().max_by(|a, b| {
         let (a, b) = (reach(a), reach(b));
@@ -133,7 +131,7 @@ mod tests {
     fn pieces_together_are_the_region() {
         let rings = region_with_hole();
         let expected: f64 = rings.iter().map(|r| area(r)).sum();
-        let cuts = Cuts { segments: &[], size: 0.4, tolerance: 1e-9 };
+        let cuts = Cuts { segments: &[], size: 0.4, epsilon: 1e-9 };
         let pieces = convex_pieces(&rings, &cuts);
         let total: f64 = pieces.iter().map(|p| area(p)).sum();
         assert!((total - expected.abs()).abs() < 1e-9, "{total} of {expected}");
@@ -146,7 +144,7 @@ mod tests {
     #[test]
     fn no_segment_runs_through_a_piece() {
         let segment = [DVec2::new(0.1, 0.2), DVec2::new(2.6, 0.45)];
-        let cuts = Cuts { segments: &[segment], size: 10.0, tolerance: 1e-9 };
+        let cuts = Cuts { segments: &[segment], size: 10.0, epsilon: 1e-9 };
         for piece in convex_pieces(&region_with_hole(), &cuts) {
             let borders = borders(&piece);
             assert!(clip(segment, &borders, 1e-7).is_none(), "{piece:?} is cut by the segment");

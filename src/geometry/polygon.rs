@@ -45,10 +45,9 @@ pub fn borders(polygon: &[DVec2]) -> SmallVec<[Line; 8]> {
 }
 
 /// The part of a segment strictly to the left of all lines.
-pub fn clip(segment: Segment, lines: &[Line], tolerance: f64) -> Option<Segment> {
-    let inside =
-        lines.iter().try_fold(segment, |part, line| line.split_segment(part, tolerance)[0]);
-    inside.filter(|[a, b]| a.distance(*b) > tolerance)
+pub fn clip(segment: Segment, lines: &[Line], epsilon: f64) -> Option<Segment> {
+    let inside = lines.iter().try_fold(segment, |part, line| line.split_segment(part, epsilon)[0]);
+    inside.filter(|[a, b]| a.distance(*b) > epsilon)
 }
 
 /// Smallest and largest coordinates of some points.
@@ -87,15 +86,15 @@ impl Line {
         Self { point: a, normal: (b - a).normalize_or_zero().perp() }
     }
 
-    /// Signed distance of a point, m, zero within `tolerance`; positive to the left.
-    pub fn side(&self, point: DVec2, tolerance: f64) -> f64 {
+    /// Signed distance of a point, m, zero within `epsilon`; positive to the left.
+    pub fn side(&self, point: DVec2, epsilon: f64) -> f64 {
         let distance = (point - self.point).dot(self.normal);
-        if distance.abs() <= tolerance { 0.0 } else { distance }
+        if distance.abs() <= epsilon { 0.0 } else { distance }
     }
 
     /// The parts of a segment to the left and to the right; what runs along the line belongs to neither.
-    pub fn split_segment(&self, [a, b]: Segment, tolerance: f64) -> [Option<Segment>; 2] {
-        let (from, to) = (self.side(a, tolerance), self.side(b, tolerance));
+    pub fn split_segment(&self, [a, b]: Segment, epsilon: f64) -> [Option<Segment>; 2] {
+        let (from, to) = (self.side(a, epsilon), self.side(b, epsilon));
         if from * to < 0.0 {
             let crossing = a.lerp(b, from / (from - to));
             let parts = [Some([a, crossing]), Some([crossing, b])];
@@ -109,8 +108,8 @@ impl Line {
     }
 
     /// The parts of a convex polygon to the left and to the right, corners on the line belonging to both.
-    pub fn split(&self, polygon: &[DVec2], tolerance: f64) -> [Option<Convex>; 2] {
-        let sides: SmallVec<[f64; 8]> = polygon.iter().map(|&p| self.side(p, tolerance)).collect();
+    pub fn split(&self, polygon: &[DVec2], epsilon: f64) -> [Option<Convex>; 2] {
+        let sides: SmallVec<[f64; 8]> = polygon.iter().map(|&p| self.side(p, epsilon)).collect();
         if sides.iter().all(|&side| side >= 0.0) {
             return [Some(polygon.into()), None];
         }

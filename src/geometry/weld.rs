@@ -1,4 +1,4 @@
-//! Places told apart by a tolerance, so that rounding never makes two of one.
+//! Places told apart by a epsilon, so that rounding never makes two of one.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -8,15 +8,15 @@ use glam::DVec3;
 /// Numbers places in the order in which they are first seen.
 #[derive(Clone, Debug)]
 pub struct Weld {
-    tolerance: f64,
+    epsilon: f64,
     cells: Cells,
     places: Vec<DVec3>,
 }
 
 impl Weld {
-    /// An empty set of places; points within `tolerance` of each other, m, will count as one.
-    pub fn new(tolerance: f64) -> Self {
-        Self { tolerance, cells: Cells::default(), places: Vec::new() }
+    /// An empty set of places; points within `epsilon` of each other, m, will count as one.
+    pub fn new(epsilon: f64) -> Self {
+        Self { epsilon, cells: Cells::default(), places: Vec::new() }
     }
 
     /// The number of the place at `point`, a new one if none is near.
@@ -24,14 +24,14 @@ impl Weld {
         self.find(point).unwrap_or_else(|| {
             let number = self.places.len() as u32;
             self.places.push(point);
-            self.cells.add(cell_key(0, point, self.tolerance), number);
+            self.cells.add(cell_key(0, point, self.epsilon), number);
             number
         })
     }
 
     /// The number of the place at `point`, if it was seen before.
     pub fn find(&self, point: DVec3) -> Option<u32> {
-        let numbers = cells_around(0, point, self.tolerance).flat_map(|key| self.cells.of(key));
+        let numbers = cells_around(0, point, self.epsilon).flat_map(|key| self.cells.of(key));
         numbers.into_iter().find(|&number| self.is_at(number, point))
     }
 
@@ -41,7 +41,7 @@ impl Weld {
     }
 
     fn is_at(&self, number: u32, point: DVec3) -> bool {
-        self.places[number as usize].distance(point) <= self.tolerance
+        self.places[number as usize].distance(point) <= self.epsilon
     }
 }
 
@@ -78,23 +78,23 @@ impl Cells {
     }
 }
 
-/// A key of the cell around a point on one of several sheets, in a grid for this tolerance, m.
-pub(crate) fn cell_key(sheet: u32, point: DVec3, tolerance: f64) -> u64 {
-    key(sheet, cell(point, tolerance))
+/// A key of the cell around a point on one of several sheets, in a grid for this epsilon, m.
+pub(crate) fn cell_key(sheet: u32, point: DVec3, epsilon: f64) -> u64 {
+    key(sheet, cell(point, epsilon))
 }
 
-/// Keys of the cells with all places within the tolerance, m, of a point.
-pub(crate) fn cells_around(sheet: u32, point: DVec3, tolerance: f64) -> impl Iterator<Item = u64> {
-    // Cells are many tolerances wide, so nearly always only one of the eight is looked at.
-    let reach = DVec3::splat(tolerance);
-    let (low, high) = (cell(point - reach, tolerance), cell(point + reach, tolerance));
+/// Keys of the cells with all places within the epsilon, m, of a point.
+pub(crate) fn cells_around(sheet: u32, point: DVec3, epsilon: f64) -> impl Iterator<Item = u64> {
+    // Cells are many epsilons wide, so nearly always only one of the eight is looked at.
+    let reach = DVec3::splat(epsilon);
+    let (low, high) = (cell(point - reach, epsilon), cell(point + reach, epsilon));
     (low[0]..=high[0]).flat_map(move |x| {
         (low[1]..=high[1]).flat_map(move |y| (low[2]..=high[2]).map(move |z| key(sheet, [x, y, z])))
     })
 }
 
-fn cell(point: DVec3, tolerance: f64) -> [i64; 3] {
-    (point / (tolerance * 4.0)).floor().to_array().map(|x| x as i64)
+fn cell(point: DVec3, epsilon: f64) -> [i64; 3] {
+    (point / (epsilon * 4.0)).floor().to_array().map(|x| x as i64)
 }
 
 fn key(sheet: u32, cell: [i64; 3]) -> u64 {
@@ -133,7 +133,7 @@ mod tests {
     proptest! {
         #[test]
         fn a_place_is_the_first_seen_near_it(points in prop::collection::vec(prop::array::uniform3(0..9_i32), 1..80)) {
-            // Exact steps of 0.6 tolerances: neighbours count as one, the next ones do not.
+            // Exact steps of 0.6 epsilons: neighbours count as one, the next ones do not.
             let mut weld = Weld::new(1.0);
             let mut places: Vec<DVec3> = Vec::new();
             for point in points {

@@ -69,7 +69,7 @@ impl TriangulatedSurface {
 
 /// Triangulates every surface; neighbours agree on their border.
 pub(super) fn triangulated(surfaces: &Surfaces) -> Vec<TriangulatedSurface> {
-    let mut weld = Weld::new(surfaces.tolerance);
+    let mut weld = Weld::new(surfaces.epsilon);
     let number = |surface: &Surface| -> Vec<Vec<u32>> {
         let ring = |ring: &Vec<DVec2>| {
             let mut numbers: Vec<u32> =
@@ -83,7 +83,7 @@ pub(super) fn triangulated(surfaces: &Surfaces) -> Vec<TriangulatedSurface> {
         surface.rings.iter().map(ring).filter(|ring| ring.len() > 2).collect()
     };
     let rings: Vec<Vec<Vec<u32>>> = surfaces.list.iter().map(number).collect();
-    let places = Places::new(&weld, surfaces.extent, surfaces.tolerance);
+    let places = Places::new(&weld, surfaces.extent, surfaces.epsilon);
     surfaces
         .list
         .iter()

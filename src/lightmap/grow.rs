@@ -67,7 +67,7 @@ impl FacetGraph<'_> {
                 let normal = surfaces.list[other as usize].plane.normal;
                 let triangles = flattened(&plane, &triangulated[other as usize]);
                 let covers = |laid: &FlatTriangle| {
-                    triangles.iter().any(|triangle| overlap(triangle, laid, surfaces.tolerance))
+                    triangles.iter().any(|triangle| overlap(triangle, laid, surfaces.epsilon))
                 };
                 if normal.dot(plane.normal) >= CONE && !laid.iter().any(covers) {
                     laid.extend(triangles);

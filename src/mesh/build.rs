@@ -14,7 +14,7 @@ use crate::geometry::{Plane, cells_around};
 use crate::settings::Settings;
 use crate::surface::{Contact, Surface, SurfaceId, Surfaces};
 
-/// How far inside a border light is evaluated, in tolerances: well beyond what counts as touching it.
+/// How far inside a border light is evaluated, in epsilons: well beyond what counts as touching it.
 const INSET: f64 = 50.0;
 
 /// Ends of cuts nearer to a vertex on the same edge than this share of it are moved there: less would be slivers.
@@ -150,7 +150,7 @@ impl Mesh {
         let flat = |place: DVec3| {
             let flat = plane.flatten(place);
             let aside = polygon::distance(edge, flat).max(plane.lift(flat).distance(place));
-            (aside <= self.index.tolerance).then_some(flat)
+            (aside <= self.index.epsilon).then_some(flat)
         };
         let close = self.index.landmarks.within(reach, plane.lift(position)).filter_map(flat);
         let nearest = close
@@ -177,7 +177,7 @@ impl Mesh {
         let plane = self.plane(patch);
         let mut copy = self[vertex].clone();
         let inward = (inside - copy.position).normalize_or_zero();
-        let reach = (2.0 * INSET * self.index.tolerance).min(0.2 * inside.distance(copy.position));
+        let reach = (2.0 * INSET * self.index.epsilon).min(0.2 * inside.distance(copy.position));
         copy.patch = patch;
         copy.site = plane.lift(copy.position + inward * reach);
         self.vertices.push(copy);
@@ -190,8 +190,8 @@ impl Mesh {
     }
 
     /// What is nearer than this, m, counts as one place on a surface.
-    pub fn tolerance(&self) -> f64 {
-        self.index.tolerance
+    pub fn epsilon(&self) -> f64 {
+        self.index.epsilon
     }
 
     fn on_contact(&self, patch: PatchId, position: DVec2) -> bool {
@@ -209,17 +209,17 @@ impl Mesh {
     /// Where to evaluate light for a place on a patch: moved inwards until it is a hair away from
     /// every border, so that what stands along a border is seen from the patch's side.
     pub fn site(&self, patch: PatchId, position: DVec2) -> DVec3 {
-        self.inside(patch, self.plane(patch).lift(position), INSET * self.index.tolerance)
+        self.inside(patch, self.plane(patch).lift(position), INSET * self.index.epsilon)
     }
 
-    /// Where to gather light from other surfaces for a vertex, m: its site; but under the edge of what hovers close over it,
-    /// as far from there as makes interpolation across the smallest elements right.
+    /// Where to gather light from other surfaces for a vertex, m: its site; but under the edge of what hovers close
+    /// over it, as far from there as makes interpolation across the smallest elements right.
     ///
-    /// Across the edge of a wide plate at a gap g over a surface, light falls as (1 + x / √(x² + g²)) / 2. Across elements
-    /// much smaller than the gap, it is interpolated well from what it is at the edge; for elements of a width w far larger
-    /// than that, the edge is a step, and light is to be known well beside it. The place at 3 g exp(-3 g / w), a fit, is
-    /// within 0.015 of the light in the middle of such an element for any w.
-    pub fn outlook(&self, vertex: VertexId) -> DVec3 {
+    /// Across the edge of a wide plate at a gap g over a surface, light falls as (1 + x / √(x² + g²)) / 2. Across
+    /// elements much smaller than the gap, it is interpolated well from what it is at the edge; for elements of a width
+    /// w far larger than that, the edge is a step, and light is to be known well beside it. The place at 3 g exp(-3 g /
+    /// w), a fit, is within 0.015 of the light in the middle of such an element for any w.
+    pub fn viewpoint(&self, vertex: VertexId) -> DVec3 {
         let Vertex { patch, site, .. } = self[vertex];
         let gap = self.gap_over(vertex);
         let aside = 3.0 * gap * (-3.0 * gap / self.index.shortest).exp();
@@ -266,7 +266,7 @@ impl Mesh {
 fn outlines(surfaces: &Surfaces, surface: &Surface, settings: &Settings) -> Vec<Convex> {
     let size = settings.patch_length(surfaces.extent.max(surface.extent()));
     let segments: Vec<Segment> = surface.contacts.iter().map(|line| line.segment).collect();
-    let cuts = Cuts { segments: &segments, size, tolerance: apart(surfaces, surface) };
+    let cuts = Cuts { segments: &segments, size, epsilon: apart(surfaces, surface) };
     convex_pieces(&surface.rings, &cuts)
 }
 
@@ -292,19 +292,14 @@ impl VertexIndex {
 }
 
 /// Indices of the lines, with a tree over them, that come near a convex polygon.
-fn touching(
-    lines: &[Contact],
-    tree: &Tree,
-    outline: &[DVec2],
-    tolerance: f64,
-) -> SmallVec<[u32; 4]> {
+fn touching(lines: &[Contact], tree: &Tree, outline: &[DVec2], epsilon: f64) -> SmallVec<[u32; 4]> {
     let mut found = Vec::new();
     let around = boxes::around(outline.iter().map(|p| p.extend(0.0)));
-    tree.find(|bounds| are_close(around, bounds, 2.0 * tolerance), &mut found);
+    tree.find(|bounds| are_close(around, bounds, 2.0 * epsilon), &mut found);
     let borders = polygon::borders(outline);
     let near = |&k: &u32| {
         let [a, b] = lines[k as usize].segment;
-        borders.iter().all(|line| line.side(a, 0.0).max(line.side(b, 0.0)) >= -2.0 * tolerance)
+        borders.iter().all(|line| line.side(a, 0.0).max(line.side(b, 0.0)) >= -2.0 * epsilon)
     };
     found.into_iter().filter(near).collect()
 }

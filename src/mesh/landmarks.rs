@@ -17,9 +17,9 @@ pub(super) struct Landmarks {
 }
 
 impl Landmarks {
-    /// None yet; those less than a tolerance apart, m, will be one, and none will be looked for beyond the `farthest`, m.
-    pub(super) fn new(tolerance: f64, farthest: f64) -> Self {
-        Self { places: Weld::new(tolerance), cells: Cells::default(), farthest, marked: 0 }
+    /// None yet; those less than a epsilon apart, m, will be one, and none will be looked for beyond the `farthest`, m.
+    pub(super) fn new(epsilon: f64, farthest: f64) -> Self {
+        Self { places: Weld::new(epsilon), cells: Cells::default(), farthest, marked: 0 }
     }
 
     pub(super) fn add(&mut self, place: DVec3) {

@@ -11,7 +11,7 @@ use crate::surface::{Contact, Surface, SurfaceId, Surfaces};
 /// But none is moved farther than so many of the shortest sides that elements may have.
 const FARTHEST: f64 = 4.0;
 
-/// Vertices of a surface are farther apart than so many tolerances, and than this share of its width if that is less:
+/// Vertices of a surface are farther apart than so many epsilons, and than this share of its width if that is less:
 /// more than twice what counts as one place in the triangle mesh, so that no two of a surface become one there.
 const APART: f64 = 25.0;
 const APART_FOR_WIDTH: f64 = 0.01;
@@ -29,7 +29,7 @@ pub(super) struct VertexIndex {
     pub(super) landmarks: Landmarks,
     /// Shortest side that elements may have, m.
     pub(super) shortest: f64,
-    pub(super) tolerance: f64,
+    pub(super) epsilon: f64,
 }
 
 /// What of a surface its vertices depend on.
@@ -45,7 +45,7 @@ pub(super) struct SurfaceVertices {
 
 impl VertexIndex {
     pub(super) fn new(surfaces: &Surfaces, settings: &Settings) -> Self {
-        let tolerance = surfaces.tolerance;
+        let epsilon = surfaces.epsilon;
         let sheet = |surface: &Surface| SurfaceVertices {
             plane: surface.plane,
             apart: apart(surfaces, surface),
@@ -53,8 +53,8 @@ impl VertexIndex {
         };
         let sheets = surfaces.list.iter().map(sheet).collect();
         let shortest = settings.min_element.metres(surfaces.extent);
-        let landmarks = Landmarks::new(tolerance, (FARTHEST * shortest).max(tolerance));
-        Self { sheets, cells: Cells::default(), landmarks, shortest, tolerance }
+        let landmarks = Landmarks::new(epsilon, (FARTHEST * shortest).max(epsilon));
+        Self { sheets, cells: Cells::default(), landmarks, shortest, epsilon }
     }
 
     /// The cell around a place on a surface.
@@ -68,7 +68,7 @@ pub(super) fn apart(surfaces: &Surfaces, surface: &Surface) -> f64 {
     let edges = surface.rings.iter().flat_map(|ring| polygon::edges(ring));
     let perimeter: f64 = edges.map(|[a, b]| a.distance(b)).sum();
     let width = 2.0 * surface.area() / perimeter.max(f64::MIN_POSITIVE);
-    (APART * surfaces.tolerance).min(APART_FOR_WIDTH * width).max(surfaces.tolerance)
+    (APART * surfaces.epsilon).min(APART_FOR_WIDTH * width).max(surfaces.epsilon)
 }
 
 /// The corners of a surface of more than 180°, as lines without length.

@@ -21,21 +21,21 @@ const ON_EDGE: f64 = 30.0;
 
 /// Whether the lamps of a mesh may be dimmed afterwards: their light must not be part of a picture then.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum LampStrength {
+pub(super) enum EmitterStrength {
     Fixed,
     Dimmable,
 }
 
 /// The triangle mesh of a solution, its lamps used like that.
 pub(super) fn reconstruct_for(
-    lamps: LampStrength,
+    lamps: EmitterStrength,
     surfaces: &Surfaces,
     solution: &Solution,
 ) -> TriMesh {
     let mesh = &solution.mesh;
-    let mut weld = Weld::new(ONE_PLACE * surfaces.tolerance);
+    let mut weld = Weld::new(ONE_PLACE * surfaces.epsilon);
     let outlined = outlined_leaves(surfaces, mesh, &mut weld);
-    let places = Places::new(&weld, surfaces.extent, ON_EDGE * surfaces.tolerance);
+    let places = Places::new(&weld, surfaces.extent, ON_EDGE * surfaces.epsilon);
     let mut all: Vec<SurfaceTriangles> = outlined
         .par_iter()
         .zip(&surfaces.list)
@@ -73,7 +73,7 @@ fn assemble(
     surfaces: &Surfaces,
     places: &Places,
     all: &[SurfaceTriangles],
-    lamps: LampStrength,
+    lamps: EmitterStrength,
 ) -> TriMesh {
     let mut hanging: Vec<u32> = all.iter().flat_map(|own| &own.hanging).copied().collect();
     hanging.sort_unstable();
@@ -88,7 +88,7 @@ fn assemble(
     };
     for (id, material) in (0..).map(MaterialId).zip(&surfaces.materials) {
         let first = mesh.parts.len();
-        let fixed = (lamps == LampStrength::Fixed).then_some(id);
+        let fixed = (lamps == EmitterStrength::Fixed).then_some(id);
         let glow = fixed.and_then(|id| Glow::of_material(surfaces, id, all));
         let texture = match &glow {
             Some(glow) => Some(glow.added_to(&mut mesh.textures)),

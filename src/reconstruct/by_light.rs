@@ -1,6 +1,6 @@
 //! A mesh that keeps the light of each group of lights apart, so that they can be dimmed.
 
-use super::assemble::{LampStrength, reconstruct_for};
+use super::assemble::{EmitterStrength, reconstruct_for};
 use super::trimesh::{LightShare, TriMesh};
 use crate::colour::Rgb;
 use crate::solver::Solution;
@@ -13,9 +13,9 @@ pub fn reconstruct_by_light(
     solution: &Solution,
     parts: impl IntoIterator<Item = (LightGroup, Surfaces, Solution)>,
 ) -> TriMesh {
-    let mut mesh = reconstruct_for(LampStrength::Dimmable, surfaces, solution);
+    let mut mesh = reconstruct_for(EmitterStrength::Dimmable, surfaces, solution);
     let share = |(group, surfaces, part): (LightGroup, Surfaces, Solution)| {
-        let radiosity = reconstruct_for(LampStrength::Dimmable, &surfaces, &part).radiosity;
+        let radiosity = reconstruct_for(EmitterStrength::Dimmable, &surfaces, &part).radiosity;
         LightShare { group, radiosity }
     };
     mesh.lights = parts.into_iter().map(share).collect();

@@ -36,9 +36,9 @@ pub(crate) use normal::normal_at;
 pub(crate) use triangulate::triangulate;
 pub use trimesh::{Irradiance, LightShare, MeshPart, TriMesh};
 
-use assemble::{LampStrength, reconstruct_for};
+use assemble::{EmitterStrength, reconstruct_for};
 
 /// The triangle mesh of a solution.
 pub fn reconstruct(surfaces: &Surfaces, solution: &Solution) -> TriMesh {
-    reconstruct_for(LampStrength::Fixed, surfaces, solution)
+    reconstruct_for(EmitterStrength::Fixed, surfaces, solution)
 }

@@ -1,4 +1,4 @@
-//! Segments on which the view of lamps changes, those in one line joined.
+//! Segments on which the view of emitters changes, those in one line joined.
 
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -12,10 +12,10 @@ use crate::geometry::polygon::{self, Segment};
 /// size: lines that could be one are in neighbouring bins.
 const BIN: f64 = 2e-3;
 
-/// A segment on which the views of some lamps change.
+/// A segment on which the views of some emitters change.
 pub(super) struct Event {
     pub(super) segment: Segment,
-    pub(super) lamps: SmallVec<[EmitterId; 2]>,
+    pub(super) emitters: SmallVec<[EmitterId; 2]>,
     /// What it may carry, at most, W/m².
     pub(super) bound: f64,
 }
@@ -34,13 +34,13 @@ pub(super) fn joined(events: impl Iterator<Item = Event>, size: f64, tolerance: 
                 if let Some((union, old)) = union.zip(old.take_if(|_| union.is_some())) {
                     new.segment = union;
                     new.bound = new.bound.max(old.bound);
-                    new.lamps.extend_from_slice(&old.lamps);
+                    new.emitters.extend_from_slice(&old.emitters);
                 }
                 union.is_none()
             });
         }
-        new.lamps.sort_unstable();
-        new.lamps.dedup();
+        new.emitters.sort_unstable();
+        new.emitters.dedup();
         bins.entry(bin).or_default().push(all.len() as u32);
         all.push(Some(new));
     }
@@ -121,7 +121,7 @@ mod tests {
     proptest! {
         #[test]
         fn bins_join_what_a_look_at_all_pairs_does(segments in segments()) {
-            let event = |&segment: &Segment| Event { segment, lamps: smallvec![EmitterId(0)], bound: 1.0 };
+            let event = |&segment: &Segment| Event { segment, emitters: smallvec![EmitterId(0)], bound: 1.0 };
             let events = || segments.iter().map(event);
             let binned = joined(events(), 4.0, TOLERANCE);
             let all = joined_one_by_one(events().collect());

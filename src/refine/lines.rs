@@ -6,7 +6,7 @@ use smallvec::{SmallVec, smallvec};
 use super::events::{Event, joined};
 use super::oracle::Oracle;
 use crate::colour::strength;
-use crate::direct::{EventLine, PatchLight};
+use crate::direct::{DirectLight, EventLine};
 use crate::geometry::polygon::{self, Convex, Segment};
 use crate::light::Optics;
 use crate::mesh::{Crossing, Mesh, Patch, PatchId, Split};
@@ -61,8 +61,8 @@ pub struct LineSearch<'a> {
     pub mesh: &'a Mesh,
     /// How they reflect.
     pub optics: &'a Optics,
-    /// The lamps, as they are seen from them.
-    pub light: &'a PatchLight,
+    /// The emitters, as they are seen from them.
+    pub light: &'a DirectLight,
     /// What says how much matters.
     pub oracle: &'a Oracle,
 }
@@ -77,16 +77,16 @@ impl LineSearch<'_> {
         if reflectance.max_element() <= 0.0 {
             return Vec::new();
         }
-        let (plane, tolerance) = (mesh.plane(patch), mesh.tolerance());
+        let (plane, tolerance) = (mesh.plane(patch), mesh.epsilon());
         let outline: Convex = corners.iter().map(|&p| plane.flatten(p)).collect();
         let borders = polygon::borders(&outline);
         let allowed = oracle.allowed_in_the_dark(mesh, *root);
         let lines = light.lines(mesh, patch, allowed / strength(reflectance));
-        let inside = lines.into_iter().filter_map(|EventLine { ends, lamp, bound }| {
+        let inside = lines.into_iter().filter_map(|EventLine { ends, emitter, bound }| {
             let segment = ends.map(|p| plane.flatten(p));
             let segment = polygon::clip(segment, &borders, tolerance)?;
             let is_long = segment[0].distance(segment[1]) >= 2.0 * oracle.min_element();
-            is_long.then(|| Event { segment, lamps: smallvec![lamp], bound })
+            is_long.then(|| Event { segment, emitters: smallvec![emitter], bound })
         });
         let mut events = joined(inside, area.sqrt(), tolerance);
         strongest(&mut events);
@@ -94,7 +94,7 @@ impl LineSearch<'_> {
         let weighed = |event: Event| {
             // All other light is smooth there, or has a line of its own.
             let by = |place: DVec2| {
-                let chosen = |lamp| event.lamps.contains(&lamp);
+                let chosen = |emitter| event.emitters.contains(&emitter);
                 Some(strength(reflectance * light.exactly(patch, plane.lift(place), chosen)?))
             };
             weigh(event.segment, &borders, step, by)

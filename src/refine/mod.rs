@@ -6,7 +6,7 @@
 //! the centre, and, for direct light, at probes in between, so that a small shadow is not
 //! overlooked.
 
-mod level;
+mod mean;
 mod sample;
 
 mod oracle;
@@ -17,7 +17,7 @@ mod events;
 mod lines;
 
 pub use cycles::{Refinement, refine};
-pub use level::mean_radiosity;
 pub use lines::{Discontinuity, LineSearch, cut};
+pub use mean::mean_radiosity;
 pub use oracle::{Oracle, tolerated_direct};
 pub use sample::Sample;

@@ -1,6 +1,6 @@
 //! Judges elements: whether interpolation is good enough, and if not, where to divide.
 
-use super::level::mean_radiosity;
+use super::mean::mean_radiosity;
 use super::sample::{Errors, Sample};
 use crate::colour::{Rgb, strength};
 use crate::light::{Optics, VertexLight};
@@ -47,7 +47,7 @@ pub struct Oracle {
     max_level: u32,
     plain_size: f64,
     /// Mean radiosity of the scene, W/m².
-    level: f64,
+    mean: f64,
 }
 
 impl Oracle {
@@ -65,18 +65,18 @@ impl Oracle {
     }
 
     /// An oracle of light from other surfaces, for a scene of this extent, m, and this mean radiosity, W/m².
-    pub fn of_reflected_light(settings: &Settings, extent: f64, level: f64) -> Self {
-        Self::new(settings, REFLECTED_SHARE, extent, level)
+    pub fn of_reflected_light(settings: &Settings, extent: f64, mean: f64) -> Self {
+        Self::new(settings, REFLECTED_SHARE, extent, mean)
     }
 
-    fn new(settings: &Settings, share: f64, extent: f64, level: f64) -> Self {
+    fn new(settings: &Settings, share: f64, extent: f64, mean: f64) -> Self {
         Self {
             tolerance: settings.tolerance * share,
             outline_tolerance: settings.tolerance * share.min(DIRECT_SHARE),
             min_element: settings.min_element.metres(extent),
             max_level: settings.max_level,
             plain_size: PLAIN_SIZE * extent,
-            level,
+            mean,
         }
     }
 
@@ -143,7 +143,7 @@ impl Oracle {
     pub fn allowed(&self, sample: &Sample<'_>) -> f64 {
         let Sample { mesh, element, ref corners } = *sample;
         let here = corners.iter().map(|&c| strength(c)).sum::<f64>() / corners.len() as f64;
-        let around = (self.level * here.max(DARKEST * self.level)).sqrt();
+        let around = (self.mean * here.max(DARKEST * self.mean)).sqrt();
         let is_beside = mesh[element].corners.iter().any(|&corner| mesh.gap_over(corner) > 0.0);
         let tolerance = if is_beside { self.outline_tolerance } else { self.tolerance };
         tolerance * around * by_size(self.plain_size, mesh[element].area)

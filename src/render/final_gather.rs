@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 
 use crate::colour::Rgb;
-use crate::direct::{Lamps, PatchLight};
+use crate::direct::{DirectLight, Emitters};
 use crate::mesh::{ElementId, Mesh};
 use crate::surface::Surfaces;
 use crate::visibility::Occluders;
@@ -15,7 +15,7 @@ use crate::visibility::Occluders;
 pub(super) struct FinalGather<'a> {
     surfaces: &'a Surfaces,
     mesh: &'a Mesh,
-    light: PatchLight,
+    light: DirectLight,
 }
 
 impl<'a> FinalGather<'a> {
@@ -26,8 +26,8 @@ impl<'a> FinalGather<'a> {
         observe: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Option<Self> {
         let mut flow = observe(0.0);
-        let (lamps, occluders) = (Lamps::new(surfaces, mesh), Occluders::new(surfaces));
-        let light = PatchLight::observed(lamps, occluders, mesh, |_| {
+        let (lamps, occluders) = (Emitters::new(surfaces, mesh), Occluders::new(surfaces));
+        let light = DirectLight::observed(lamps, occluders, mesh, |_| {
             if flow.is_continue() {
                 flow = observe(0.0);
             }

@@ -5,7 +5,7 @@ use super::subject::Solved;
 use crate::colour::Rgb;
 use crate::mesh::{ElementId, Mesh, Reason, VertexId};
 use crate::refine::{Oracle, Sample};
-use crate::solver::{Solution, level};
+use crate::solver::{Solution, mean_radiosity_shown};
 
 /// Names of what makes leaves, in the order of their colours.
 pub(crate) const REASONS: [&str; 6] =
@@ -67,8 +67,11 @@ pub(super) fn errors(solved: &Solved<'_>) -> Vec<Rgb> {
     let Solution { mesh, optics, vertex_light: light, .. } = solved.solution;
     let Solved { surfaces, settings, .. } = solved;
     let of_direct_light = Oracle::of_direct_light(settings, surfaces.extent, mesh, optics, light);
-    let of_reflected_light =
-        Oracle::of_reflected_light(settings, surfaces.extent, level(mesh, optics, light));
+    let of_reflected_light = Oracle::of_reflected_light(
+        settings,
+        surfaces.extent,
+        mean_radiosity_shown(mesh, optics, light),
+    );
     let error = |leaf: ElementId| {
         let middle = mesh.find_middle(leaf)?;
         let reflectance = optics.of(&mesh[leaf]);

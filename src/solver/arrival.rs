@@ -1,7 +1,8 @@
 //! The direct light that arrives on patches and on leaves where their vertices cannot tell.
 //!
 //! Black patches are never divided, however unevenly they are lit; and light may fall off over less than the smallest
-//! element, as beside a lamp that all but touches a ceiling. The books, and all that is reflected, need the right mean.
+//! element, as beside an emitter that all but touches a ceiling. The books, and all that is reflected, need the right
+//! mean.
 
 use std::collections::BTreeMap;
 
@@ -12,12 +13,12 @@ use smallvec::SmallVec;
 use super::context::Context;
 use super::sources::{HOT, capped_power, quarters};
 use crate::colour::{Rgb, strength};
-use crate::direct::{Evaluated, Outlook, WorkCounters};
+use crate::direct::{Evaluated, PotentialEmitters, WorkCounters};
 use crate::geometry::area_vector;
 use crate::light::{ElementLight, VertexLight, mean};
 use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
 
-/// A patch with a lamp nearer than this many of its sizes is lit unevenly.
+/// A patch with an emitter nearer than this many of its sizes is lit unevenly.
 const NEAR: f64 = 2.0;
 
 /// As are those whose corners and middles differ by more than this share of the most.
@@ -44,15 +45,15 @@ pub(super) fn arrival(
     let on = |&patch: &PatchId| {
         let whole = &mesh[patch];
         let known = light.direct[whole.root.index()] * whole.area;
-        let outlook = context.light.on(patch);
+        let potential = context.light.on(patch);
         let is_even = || {
             let matters = strength(known) > error && is_uneven(mesh, vertices, patch);
-            !matters && (error.is_infinite() || !outlook.is_near(mesh, NEAR * whole.area.sqrt()))
+            !matters && (error.is_infinite() || !potential.is_near(mesh, NEAR * whole.area.sqrt()))
         };
-        if context.optics.reflects(patch) || context.groups.holds(patch) || is_even() {
+        if context.optics.reflects(patch) || context.clusters.holds(patch) || is_even() {
             return (known, WorkCounters::default());
         }
-        PatchPart::new(whole.corners.iter().copied(), &outlook).integral(error)
+        PatchPart::new(whole.corners.iter().copied(), &potential).integral(error)
     };
     let (arriving, work): (Vec<Rgb>, Vec<WorkCounters>) = numbers.par_iter().map(on).unzip();
     (arriving, work.into_iter().sum())
@@ -75,8 +76,8 @@ pub(super) fn steep_means(
         }
         let plane = mesh.plane(element.patch);
         let corners = element.corners.iter().map(|&v| plane.lift(mesh[v].position));
-        let outlook = context.light.on(element.patch);
-        let (power, work) = PatchPart::new(corners, &outlook).integral(error);
+        let potential = context.light.on(element.patch);
+        let (power, work) = PatchPart::new(corners, &potential).integral(error);
         Some(((leaf, power / element.area), work))
     };
     let found: Vec<_> = leaves.par_iter().filter_map(mean).collect();
@@ -84,8 +85,8 @@ pub(super) fn steep_means(
     (means, work.into_iter().sum())
 }
 
-/// What arrives on leaves, W, without most of what is shut in: of a lamp that faces a ceiling closely, what lights the
-/// room is hardly more than an error of that.
+/// What arrives on leaves, W, without most of what is shut in: of an emitter that faces a ceiling closely, what lights
+/// the room is hardly more than an error of that.
 fn counting_power(mesh: &Mesh, vertices: &VertexLight, leaves: &[ElementId]) -> f64 {
     let area: f64 = leaves.iter().map(|&leaf| mesh[leaf].area).sum();
     let capped = |most: f64| {
@@ -124,18 +125,18 @@ fn is_uneven(mesh: &Mesh, light: &VertexLight, patch: PatchId) -> bool {
 /// A convex part of a patch, and what arrives in its middle for all of it.
 struct PatchPart<'a> {
     corners: SmallVec<[DVec3; 4]>,
-    outlook: &'a Outlook<'a>,
+    potential: &'a PotentialEmitters<'a>,
     /// W.
     power: Rgb,
     work: WorkCounters,
 }
 
 impl<'a> PatchPart<'a> {
-    fn new(corners: impl Iterator<Item = DVec3>, outlook: &'a Outlook<'a>) -> Self {
+    fn new(corners: impl Iterator<Item = DVec3>, potential: &'a PotentialEmitters<'a>) -> Self {
         let corners: SmallVec<[DVec3; 4]> = corners.collect();
-        let Evaluated { light, work } = outlook.at(centre(&corners));
+        let Evaluated { light, work } = potential.at(centre(&corners));
         let power = light.irradiance * area_vector(&corners).length();
-        Self { corners, outlook, power, work }
+        Self { corners, potential, power, work }
     }
 
     /// What arrives on it, W, right to about the `error` given, and what it took.
@@ -148,7 +149,7 @@ impl<'a> PatchPart<'a> {
     fn refined(&self, error: f64, level: u32, work: &mut WorkCounters) -> Rgb {
         let quarters = quarters(&self.corners, centre(&self.corners), DVec3::midpoint);
         let parts: SmallVec<[Self; 4]> =
-            quarters.map(|corners| Self::new(corners.into_iter(), self.outlook)).collect();
+            quarters.map(|corners| Self::new(corners.into_iter(), self.potential)).collect();
         *work += parts.iter().map(|part| part.work).sum();
         let sum: Rgb = parts.iter().map(|part| part.power).sum();
         let [least, most] = LEVELS;

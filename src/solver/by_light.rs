@@ -9,20 +9,20 @@ use std::ops::ControlFlow;
 use serde::Serialize;
 
 use super::checkpoint::Checkpoint;
+use super::clusters::Clusters;
 use super::context::Context;
-use super::groups::Groups;
 use super::interpolate::{REFLECTED, interpolate};
 use super::interreflection::Interreflection;
 use super::lit_mesh::VertexLighting;
 use super::observer::Observer;
 use super::power_balance::PowerBalance;
 use super::solution::{Progress, Solution};
-use super::start::{DARK, check_reflectances, lamps_on};
+use super::start::{DARK, check_reflectances, emitters_on};
 use super::stop::{Cancellation, Stop};
 use super::work::Work;
 use super::{direct_light, direct_pass};
 use crate::colour::Rgb;
-use crate::direct::PatchLight;
+use crate::direct::DirectLight;
 use crate::error::{Error, Result};
 use crate::light::{Direct, ElementLight, Optics};
 use crate::mesh::{Mesh, VertexId};
@@ -41,8 +41,8 @@ pub struct ScaledLight {
 /// The same, ready to be solved.
 struct Alone<'a> {
     surfaces: &'a Surfaces,
-    lamps: PatchLight,
-    groups: Groups,
+    emitters: DirectLight,
+    clusters: Clusters,
     optics: Optics,
 }
 
@@ -108,18 +108,18 @@ impl<'a> Alone<'a> {
         let mesh = Mesh::new(surfaces, settings);
         let optics = Optics::new(surfaces, &mesh);
         check_reflectances(surfaces, &mesh, &optics)?;
-        let lamps = lamps_on(surfaces, settings, &mesh, observer)?;
-        let groups = Groups::new(surfaces, settings, &mesh);
-        Ok(Self { surfaces, lamps, groups, optics })
+        let emitters = emitters_on(surfaces, settings, &mesh, observer)?;
+        let clusters = Clusters::new(surfaces, settings, &mesh);
+        Ok(Self { surfaces, emitters, clusters, optics })
     }
 
     /// None yet.
     fn lighting(&self) -> VertexLighting {
-        VertexLighting { work: self.lamps.work(), ..VertexLighting::default() }
+        VertexLighting { work: self.emitters.work(), ..VertexLighting::default() }
     }
 
     fn context(&self) -> Context<'_> {
-        Context::new(self.surfaces, &self.optics, &self.lamps, &self.groups)
+        Context::new(self.surfaces, &self.optics, &self.emitters, &self.clusters)
     }
 }
 

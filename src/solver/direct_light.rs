@@ -7,32 +7,32 @@ use smallvec::SmallVec;
 
 use super::arrival::steep_means;
 use super::context::Context;
+use super::element_emitters::ElementEmitters;
 use super::gather_points::neighbours;
 use super::lit_mesh::LitMesh;
 use super::observer::Observer;
-use super::outlooks::Outlooks;
 use super::unfinished::make_do;
 use crate::colour::{Rgb, strength};
-use crate::direct::{Evaluated, PatchLight, WorkCounters};
+use crate::direct::{DirectLight, Evaluated, WorkCounters};
 use crate::light::{Direct, VertexLight};
 use crate::mesh::{ElementId, Mesh, VertexId};
 
 /// Evaluates direct light at all vertices that lack it; of these, those in the middle of `elements` and on their
 /// borders by what stands before each element.
 ///
-/// Vertices of facets that are in one group and at one place see the same share of it.
+/// Vertices of facets that are in one cluster and at one place see the same share of it.
 pub(super) fn light(
-    outlooks: &Outlooks<'_>,
+    element_emitters: &ElementEmitters<'_>,
     LitMesh { mesh, light, work }: &mut LitMesh<'_>,
     elements: &[ElementId],
     observer: &mut Observer<'_>,
 ) {
-    let (mesh, context) = (&**mesh, outlooks.context);
+    let (mesh, context) = (&**mesh, element_emitters.context);
     let (owned, others) = owners(context, mesh, light, elements);
-    let sets = neighbours(mesh, context.groups, context.near, &others);
+    let sets = neighbours(mesh, context.clusters, context.near, &others);
     let on_element = |(element, vertices): &(ElementId, SmallVec<[VertexId; 5]>)| {
-        let outlook = outlooks.from(mesh, *element);
-        counted(vertices.iter().map(|&v| outlook.at(mesh[v].site)))
+        let potential = element_emitters.from(mesh, *element);
+        counted(vertices.iter().map(|&v| potential.at(mesh[v].site)))
     };
     let shine = |set: &SmallVec<_>| light_together(context.light, mesh, set);
     let (mut lit, more) = evaluate(&owned, on_element, observer);
@@ -62,7 +62,7 @@ fn owners(
     let vertices = || (0..mesh.vertices.len() as u32).map(VertexId);
     let mut is_dark: Vec<bool> = vertices().map(|v| light.direct(v).is_none()).collect();
     let mut owned = Vec::new();
-    for &element in elements.iter().filter(|&&e| !context.groups.holds(mesh[e].patch)) {
+    for &element in elements.iter().filter(|&&e| !context.clusters.holds(mesh[e].patch)) {
         let middle = mesh.find_middle(element);
         let middle = middle.iter().flat_map(|m| m.edges.iter().chain([&m.centre]));
         let vertices = mesh[element].corners.iter().chain(middle).copied();
@@ -106,7 +106,7 @@ fn counted(evaluated: impl Iterator<Item = Evaluated>) -> (SmallVec<[Direct; 1]>
 
 /// Direct light at vertices next to each other: what the one that it reaches best sees of it, all do.
 fn light_together(
-    light: &PatchLight,
+    light: &DirectLight,
     mesh: &Mesh,
     vertices: &[VertexId],
 ) -> (SmallVec<[Direct; 1]>, WorkCounters) {
@@ -133,12 +133,12 @@ pub(super) fn light_leaves(
     observer: &mut Observer<'_>,
 ) {
     // Facets are so small that their corners tell enough.
-    let is_whole = |&leaf: &ElementId| !context.groups.holds(lit.mesh[leaf].patch);
+    let is_whole = |&leaf: &ElementId| !context.clusters.holds(lit.mesh[leaf].patch);
     let leaves: Vec<ElementId> = lit.mesh.leaves().filter(is_whole).collect();
     for &leaf in &leaves {
         lit.mesh.middle(leaf);
     }
-    light(&Outlooks::new(context, lit.mesh), lit, &leaves, observer);
+    light(&ElementEmitters::new(context, lit.mesh), lit, &leaves, observer);
     if observer.is_over() {
         make_do(context.light, lit.mesh, lit.light);
     } else {

@@ -6,9 +6,9 @@ use glam::DVec2;
 
 use super::context::Context;
 use super::direct_light::{evaluate, light};
+use super::element_emitters::ElementEmitters;
 use super::lit_mesh::LitMesh;
 use super::observer::Observer;
-use super::outlooks::Outlooks;
 use super::solution::Phase;
 use crate::colour::{Rgb, strength};
 use crate::direct::{Evaluated, WorkCounters};
@@ -35,7 +35,7 @@ struct DirectJudge<'a> {
 /// A mesh that is refined to direct light.
 struct DirectRefinement<'p, 'a, 'm, 'o> {
     judge: DirectJudge<'a>,
-    outlooks: Outlooks<'a>,
+    element_emitters: ElementEmitters<'a>,
     /// The elements that were looked at one level up.
     before: Vec<ElementId>,
     lit: &'p mut LitMesh<'m>,
@@ -53,7 +53,7 @@ pub(super) fn refine(
     if observer.tell(Phase::Direct, 0.0).is_break() {
         return;
     }
-    light(&Outlooks::new(context, lit.mesh), lit, &[], observer);
+    light(&ElementEmitters::new(context, lit.mesh), lit, &[], observer);
     if settings.uniform.is_some() || observer.is_over() {
         return;
     }
@@ -64,8 +64,9 @@ pub(super) fn refine(
     if settings.discontinuity_lines && levels > 0 {
         judge.find_lines(lit.mesh, &elements, observer);
     }
-    let (outlooks, before) = (Outlooks::new(context, lit.mesh), Vec::new());
-    let mut refinement = DirectRefinement { judge, outlooks, before, lit, observer, levels };
+    let (element_emitters, before) = (ElementEmitters::new(context, lit.mesh), Vec::new());
+    let mut refinement =
+        DirectRefinement { judge, element_emitters, before, lit, observer, levels };
     refine_mesh(&mut refinement, elements, levels);
 }
 
@@ -83,24 +84,24 @@ impl Refinement for DirectRefinement<'_, '_, '_, '_> {
     }
 
     fn estimate(&mut self, elements: &[ElementId], _: &[Middle]) {
-        light(&self.outlooks, self.lit, elements, self.observer);
+        light(&self.element_emitters, self.lit, elements, self.observer);
     }
 
     fn mark(&mut self, elements: &[ElementId], middles: &[Middle]) -> Vec<Option<Split>> {
-        let Self { judge, outlooks, lit, observer, before, .. } = self;
+        let Self { judge, element_emitters, lit, observer, before, .. } = self;
         let LitMesh { mesh, light, work } = &mut **lit;
         let judged: Vec<(ElementId, &Middle)> = elements.iter().copied().zip(middles).collect();
-        let level = LevelJudge { judge, outlooks, mesh, light };
+        let level = LevelJudge { judge, element_emitters, mesh, light };
         let divide = |&(element, middle): &(ElementId, &Middle)| level.divide(element, middle);
         let (splits, more) = evaluate(&judged, divide, observer);
         **work += more;
-        outlooks.forget(before);
+        element_emitters.forget(before);
         elements.clone_into(before);
         splits
     }
 
     fn divided(&mut self, elements: &[ElementId]) {
-        self.outlooks.extend(self.lit.mesh, elements);
+        self.element_emitters.extend(self.lit.mesh, elements);
     }
 }
 
@@ -133,7 +134,7 @@ impl<'a> DirectJudge<'a> {
     /// would be hardly longer than the shortest side.
     fn is_even_facet(&self, mesh: &Mesh, light: &VertexLight, element: ElementId) -> bool {
         let sample = || Sample::new(mesh, element, self.radiosity(mesh, light, element));
-        self.context.groups.holds(mesh[element].patch)
+        self.context.clusters.holds(mesh[element].patch)
             && self.oracle.is_small(mesh, element)
             && self.oracle.is_even(&sample())
     }
@@ -159,7 +160,7 @@ impl<'a> DirectJudge<'a> {
 /// A level of elements and what is known about them.
 struct LevelJudge<'r, 'a> {
     judge: &'r DirectJudge<'a>,
-    outlooks: &'r Outlooks<'a>,
+    element_emitters: &'r ElementEmitters<'a>,
     mesh: &'r Mesh,
     light: &'r VertexLight,
 }
@@ -174,7 +175,7 @@ impl LevelJudge<'_, '_> {
         let along_line = if lines.is_empty() {
             None
         } else {
-            cut(&mesh.outline(element), lines, oracle.allowed(&sample), mesh.tolerance())
+            cut(&mesh.outline(element), lines, oracle.allowed(&sample), mesh.epsilon())
         };
         let mut work = WorkCounters::default();
         let is_off = |allowed| self.is_off(element, allowed, &mut work);
@@ -184,12 +185,14 @@ impl LevelJudge<'_, '_> {
 
     /// True if light somewhere inside an element is off by more than is allowed, W/m².
     fn is_off(&self, element: ElementId, allowed: f64, work: &mut WorkCounters) -> bool {
-        let Self { judge: DirectJudge { context, oracle, .. }, outlooks, mesh, light } = self;
+        let Self { judge: DirectJudge { context, oracle, .. }, element_emitters, mesh, light } =
+            self;
         let patch = mesh[element].patch;
-        let outlook = outlooks.from(mesh, element);
-        // Between the middles of small elements is nothing to be found where nothing stands before lamps; in crowds,
+        let potential = element_emitters.from(mesh, element);
+        // Between the middles of small elements is nothing to be found where nothing stands before emitters; in crowds,
         // shadows there are as small as what makes them: they blur.
-        let is_plain = context.groups.holds(patch) || outlook.is_clear() || outlook.is_crowded();
+        let is_plain =
+            context.clusters.holds(patch) || potential.is_clear() || potential.is_crowded();
         if is_plain && oracle.is_small(mesh, element) {
             return false;
         }
@@ -199,7 +202,7 @@ impl LevelJudge<'_, '_> {
             .map(|&v| Probe { position: mesh[v].position, irradiance: light.direct_irradiance(v) })
             .collect();
         probes(&corners).into_iter().any(|probe| {
-            let Evaluated { light, work: more } = outlook.at(plane.lift(probe.position));
+            let Evaluated { light, work: more } = potential.at(plane.lift(probe.position));
             *work += more;
             strength(reflectance * (light.irradiance - probe.irradiance)) > allowed
         })

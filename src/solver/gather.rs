@@ -11,10 +11,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
+use super::clusters::Clusters;
 use super::context::GatherContext;
 use super::gather_points::{GatherPoint, IncidentLight, LightVector, gather_points};
 use super::glare::{Gaze, glaring};
-use super::groups::Groups;
 use super::lit_mesh::LitMesh;
 use super::observer::Observer;
 use super::sources::{RadiosityPiece, Sources};
@@ -61,8 +61,8 @@ struct Gathered {
 pub(super) struct Gatherer<'a> {
     surfaces: &'a Surfaces,
     occluders: &'a Occluders,
-    groups: &'a Groups,
-    /// Vertices of a group of facets nearer to each other than this, m, have one view.
+    clusters: &'a Clusters,
+    /// Vertices of a cluster of facets nearer to each other than this, m, have one view.
     near: f64,
     sources: Sources<'a>,
     /// By patch: whether it is among `glaring`.
@@ -70,7 +70,7 @@ pub(super) struct Gatherer<'a> {
     glaring: Vec<PatchId>,
     delta: DeltaFactors,
     /// Mean radiosity of the scene, W/m².
-    level: f64,
+    mean: f64,
     /// Elements whose parts may change a result by more than this, W/m², are taken in parts.
     fine: f64,
     /// What vertices saw whose light was gathered.
@@ -83,25 +83,25 @@ pub(super) struct Gatherer<'a> {
 
 impl<'a> Gatherer<'a> {
     pub(super) fn new(
-        GatherContext { surfaces, occluders, groups }: GatherContext<'a>,
+        GatherContext { surfaces, occluders, clusters }: GatherContext<'a>,
         settings: &Settings,
         mesh: &Mesh,
         sources: Sources<'a>,
-        level: f64,
+        mean: f64,
     ) -> Self {
-        let resolution = enough_cells(groups.patches(), settings.tolerance, MOST_CELLS);
+        let resolution = enough_cells(clusters.patches(), settings.tolerance, MOST_CELLS);
         let delta = DeltaFactors::new(resolution);
         let mut gatherer = Self {
             surfaces,
             occluders,
-            groups,
+            clusters,
             near: 0.5 * settings.min_element.metres(surfaces.extent),
             sources,
             glares: Vec::new(),
             glaring: Vec::new(),
             delta,
-            level,
-            fine: GATHER_SHARE * settings.tolerance * level,
+            mean,
+            fine: GATHER_SHARE * settings.tolerance * mean,
             views: Vec::new(),
             gathered: 0,
             factors: 0,
@@ -112,9 +112,9 @@ impl<'a> Gatherer<'a> {
 
     /// Finds the patches that glare by the sources.
     fn find_glaring(&mut self, mesh: &Mesh) {
-        let elements = glaring(mesh, &self.sources, self.level);
+        let elements = glaring(mesh, &self.sources, self.mean);
         let glares =
-            |patch: PatchId| !self.groups.holds(patch) && elements[mesh[patch].root.index()];
+            |patch: PatchId| !self.clusters.holds(patch) && elements[mesh[patch].root.index()];
         let patches = (0..mesh.patches.len() as u32).map(PatchId);
         self.glares = patches.clone().map(glares).collect();
         self.glaring = patches.filter(|patch| self.glares[patch.index()]).collect();
@@ -133,7 +133,7 @@ impl<'a> Gatherer<'a> {
         dark.sort_unstable();
         dark.dedup();
         let targets = HemicubeScene::new(&mesh.patches);
-        let gather_points = gather_points(mesh, self.groups, self.near, &dark);
+        let gather_points = gather_points(mesh, self.clusters, self.near, &dark);
         let lit: Vec<Vec<Vec<Gathered>>> = observer.evaluate(&gather_points, |batch, enough| {
             let hemicube = || Hemicube::new(&self.delta, &targets, self.occluders);
             let gather = |hemicube: &mut Hemicube<'_>, gather_point| {
@@ -180,9 +180,9 @@ impl<'a> Gatherer<'a> {
         self.sources.optics
     }
 
-    /// What of the mesh is in groups.
-    pub(super) fn groups(&self) -> &'a Groups {
-        self.groups
+    /// What of the mesh is in clusters.
+    pub(super) fn clusters(&self) -> &'a Clusters {
+        self.clusters
     }
 
     /// The delta factors of the hemicubes that it looks through.
@@ -245,7 +245,7 @@ impl<'a> Gatherer<'a> {
     ) -> (PatchView, u64) {
         let eye = hemicube.eye();
         let (mut factors, mut view) = (0, PatchView::new());
-        let is_whole = |patch: PatchId| !self.groups.holds(patch);
+        let is_whole = |patch: PatchId| !self.clusters.holds(patch);
         let is_plain = |patch: PatchId| is_whole(patch) && !self.glares[patch.index()];
         for sight in hemicube.visible_patches_of(is_plain).filter(|sight| sight.front) {
             factors += self.receive(mesh, hemicube, &sight, arrive);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::groups::Groups;
+use super::clusters::Clusters;
 use crate::colour::Rgb;
 use crate::form_factor::contour::vector_to_polygon;
 use crate::geometry::Weld;
@@ -24,28 +24,28 @@ const GRAZING: f64 = 0.1;
 /// A place to gather light at, once for all of some vertices.
 #[derive(Clone, Debug)]
 pub(super) struct GatherPoint {
-    /// In their order; all of one group of facets, or a single one.
+    /// In their order; all of one cluster of facets, or a single one.
     pub(super) vertices: SmallVec<[VertexId; 1]>,
     pub(super) eye: DVec3,
     /// Unit normal.
     pub(super) normal: DVec3,
 }
 
-/// The gathering points of vertices: those of facets that are in one group and `near` each other, m, share one.
+/// The gathering points of vertices: those of facets that are in one cluster and `near` each other, m, share one.
 pub(super) fn gather_points(
     mesh: &Mesh,
-    groups: &Groups,
+    clusters: &Clusters,
     near: f64,
     vertices: &[VertexId],
 ) -> Vec<GatherPoint> {
-    let sets = neighbours(mesh, groups, near.max(ONE_PLACE * mesh.tolerance()), vertices);
+    let sets = neighbours(mesh, clusters, near.max(ONE_PLACE * mesh.epsilon()), vertices);
     sets.into_iter().map(|set| GatherPoint::new(mesh, set)).collect()
 }
 
-/// Vertices, those of facets together that are in one group and `near` each other, m.
+/// Vertices, those of facets together that are in one cluster and `near` each other, m.
 pub(super) fn neighbours(
     mesh: &Mesh,
-    groups: &Groups,
+    clusters: &Clusters,
     near: f64,
     vertices: &[VertexId],
 ) -> Vec<SmallVec<[VertexId; 1]>> {
@@ -54,8 +54,8 @@ pub(super) fn neighbours(
     let mut sets: Vec<SmallVec<[VertexId; 1]>> = Vec::new();
     for &vertex in vertices {
         let patch = mesh[vertex].patch;
-        let set = if groups.holds(patch) {
-            let key = (groups.of(patch), weld.number(mesh[vertex].site));
+        let set = if clusters.holds(patch) {
+            let key = (clusters.of(patch), weld.number(mesh[vertex].site));
             *shared.entry(key).or_insert(sets.len())
         } else {
             sets.len()
@@ -70,17 +70,17 @@ impl GatherPoint {
     fn new(mesh: &Mesh, vertices: SmallVec<[VertexId; 1]>) -> Self {
         let normal_of = |v: VertexId| mesh.plane(mesh[v].patch).normal;
         if let &[vertex] = vertices.as_slice() {
-            return Self { eye: mesh.outlook(vertex), normal: normal_of(vertex), vertices };
+            return Self { eye: mesh.viewpoint(vertex), normal: normal_of(vertex), vertices };
         }
         let site = |v: VertexId| mesh[v].site;
         let middle = vertices.iter().map(|&v| site(v)).sum::<DVec3>() / vertices.len() as f64;
         let aside = |v: VertexId| site(v).distance_squared(middle);
         let nearest = vertices.iter().copied().min_by(|&a, &b| aside(a).total_cmp(&aside(b)));
         let at = nearest.map_or(middle, site);
-        let here = |v: &&VertexId| site(**v).distance(at) <= ONE_PLACE * mesh.tolerance();
+        let here = |v: &&VertexId| site(**v).distance(at) <= ONE_PLACE * mesh.epsilon();
         let sum: DVec3 = vertices.iter().filter(here).map(|&v| normal_of(v)).sum();
         let normal = sum.normalize_or(normal_of(vertices[0]));
-        Self { vertices, eye: at + normal * (LIFT * mesh.tolerance()), normal }
+        Self { vertices, eye: at + normal * (LIFT * mesh.epsilon()), normal }
     }
 }
 

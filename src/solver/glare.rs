@@ -1,8 +1,8 @@
 //! Patches on which light varies far beyond all others, as the places that gather it see them.
 //!
-//! The spot over a lamp that shines at the ceiling from close by is the usual one. What hides a part of such a patch
-//! is often what lights it, so that the bright part is the hidden one: the share of cells that see the patch, right for
-//! any other, would be wrong. So it is seen piece by piece.
+//! The spot over an emitter that shines at the ceiling from close by is the usual one. What hides a part of such a
+//! patch is often what lights it, so that the bright part is the hidden one: the share of cells that see the patch,
+//! right for any other, would be wrong. So it is seen piece by piece.
 
 use std::f64::consts::PI;
 
@@ -23,10 +23,10 @@ const GLARING: f64 = 4.0;
 /// Deepest division of a leaf.
 const DEEPEST: u32 = 6;
 
-/// By element, whether its radiosity varies so much, in a scene with a mean radiosity of `level`, W/m².
-pub(super) fn glaring(mesh: &Mesh, sources: &Sources<'_>, level: f64) -> Vec<bool> {
+/// By element, whether its radiosity varies so much, in a scene with a mean radiosity of `mean`, W/m².
+pub(super) fn glaring(mesh: &Mesh, sources: &Sources<'_>, mean: f64) -> Vec<bool> {
     let elements = (0..mesh.elements.len() as u32).map(ElementId);
-    elements.map(|element| sources.spread(element) > GLARING * level).collect()
+    elements.map(|element| sources.spread(element) > GLARING * mean).collect()
 }
 
 /// A place that light is gathered at, looking at one patch that glares.
@@ -62,7 +62,7 @@ impl Gaze<'_> {
         let Self { mesh, sources, eye: SurfacePoint { position: site, normal }, .. } = *self;
         let patch = &mesh[patch];
         let above = HalfSpace::new(site, normal).clip(&patch.corners);
-        let is_before = (site - patch.corners[0]).dot(patch.normal) > self.occluders.tolerance();
+        let is_before = (site - patch.corners[0]).dot(patch.normal) > self.occluders.epsilon();
         if above.len() < 3 || !is_before {
             return (0.0, 0);
         }
@@ -98,8 +98,8 @@ impl Look<'_, '_> {
         parts.map(&mut light).sum()
     }
 
-    /// True if a source whose radiosity is up to so far from its mean, W/m², may send more or less than it seems to by as
-    /// much as matters.
+    /// True if a source whose radiosity is up to so far from its mean, W/m², may send more or less than it seems to by
+    /// as much as matters.
     ///
     /// Of what is seen whole, the mean is right but for how unlike its parts are seen: the less, the smaller it looks.
     fn is_coarse(&self, factor: f64, spread: f64) -> bool {

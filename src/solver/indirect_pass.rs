@@ -73,7 +73,7 @@ impl Refinement for ReflectedRefinement<'_, '_, '_, '_> {
     fn may_divide(&self, element: ElementId) -> bool {
         let mesh = &*self.lit.mesh;
         (!mesh[element].is_leaf() || self.oracle.may_divide(mesh, element))
-            && !(self.gatherer.groups().holds(mesh[element].patch)
+            && !(self.gatherer.clusters().holds(mesh[element].patch)
                 && self.oracle.is_even(&self.sample(element)))
     }
 

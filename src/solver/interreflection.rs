@@ -90,9 +90,9 @@ impl Interreflection {
     ) {
         let optics = context.optics;
         let sources = self.sources(lit.mesh, optics, lit.light);
-        let level = sources.level(lit.mesh, lit.light);
-        let oracle = Oracle::of_reflected_light(settings, context.surfaces.extent, level);
-        let mut gatherer = Gatherer::new(context.to_gather(), settings, lit.mesh, sources, level);
+        let mean = sources.mean_radiosity_shown(lit.mesh, lit.light);
+        let oracle = Oracle::of_reflected_light(settings, context.surfaces.extent, mean);
+        let mut gatherer = Gatherer::new(context.to_gather(), settings, lit.mesh, sources, mean);
         for round in 1..=ROUNDS {
             indirect_pass::refine(settings, &oracle, &mut gatherer, lit, observer);
             direct_light::light_leaves(context, lit, observer);

@@ -15,13 +15,13 @@ mod solution;
 mod checkpoint;
 mod observer;
 
+mod clusters;
 mod gather_points;
-mod groups;
 
 mod context;
+mod element_emitters;
 mod interpolate;
 mod lit_mesh;
-mod outlooks;
 mod sources;
 mod start;
 
@@ -45,9 +45,9 @@ mod indirect_pass;
 mod interreflection;
 
 mod by_light;
-mod stages;
+mod snapshots;
 
-mod probe;
+mod illuminance;
 mod work_plane;
 
 use std::ops::ControlFlow;
@@ -60,20 +60,20 @@ use crate::surface::Surfaces;
 
 pub use by_light::{ScaledLight, solve_by_light};
 pub use checkpoint::Checkpoint;
+pub use illuminance::{Reading, read};
 pub use power_balance::PowerBalance;
-pub use probe::{Reading, read};
 pub use solution::{Phase, Progress, Solution};
-pub(crate) use sources::level;
+pub(crate) use sources::mean_radiosity_shown;
 pub use stop::{Cancellation, Stop};
 pub use work::Work;
 pub use work_plane::{Evenness, WorkPlane};
 
+use clusters::Clusters;
 use context::Context;
-use groups::Groups;
 use interreflection::Interreflection;
 use lit_mesh::VertexLighting;
 use observer::Observer;
-use start::{check_reflectances, lamps_on};
+use start::{check_reflectances, emitters_on};
 
 /// Lights `surfaces`, telling `observe` about each step; when that breaks off, what is there is
 /// finished quickly.
@@ -94,14 +94,14 @@ pub fn solve(
 pub struct Plan<'a> {
     /// Numbers of shots of reflected light after which it is wanted, too; 0 is what comes straight from
     /// emitters.
-    pub stages: &'a [usize],
+    pub snapshots: &'a [usize],
     /// Where work is kept as it is done, and taken up again.
     pub checkpoint: Option<&'a mut Checkpoint>,
 }
 
-/// The same by a plan; and what the light was at the stages, with the light still unshot estimated as ambient.
+/// The same by a plan; and what the light was at the snapshots, with the light still unshot estimated as ambient.
 ///
-/// All stages have the mesh that direct light has refined. Those that the exchange did not go beyond
+/// All snapshots have the mesh that direct light has refined. Those that the exchange did not go beyond
 /// are left out; [`Solution::reflected_shots`] tells them apart.
 ///
 /// # Errors
@@ -116,23 +116,23 @@ pub fn solve_with(
     settings.validate()?;
     settings.validate_for(surfaces.divided_area(), surfaces.extent)?;
     let mut nowhere = Checkpoint::default();
-    let Plan { stages, checkpoint } = plan;
+    let Plan { snapshots, checkpoint } = plan;
     let checkpoint = checkpoint.unwrap_or(&mut nowhere);
     let settings = &checkpoint.settings(settings);
     let mut observer = Observer::new(&mut observe, checkpoint);
     let mut mesh = Mesh::new(surfaces, settings);
     let optics = Optics::new(surfaces, &mesh);
     check_reflectances(surfaces, &mesh, &optics)?;
-    let lamps = lamps_on(surfaces, settings, &mesh, &mut observer)?;
-    let groups = Groups::new(surfaces, settings, &mesh);
-    let context = Context::new(surfaces, &optics, &lamps, &groups);
+    let emitters = emitters_on(surfaces, settings, &mesh, &mut observer)?;
+    let clusters = Clusters::new(surfaces, settings, &mesh);
+    let context = Context::new(surfaces, &optics, &emitters, &clusters);
 
-    let mut lighting = VertexLighting { work: lamps.work(), ..VertexLighting::default() };
+    let mut lighting = VertexLighting { work: emitters.work(), ..VertexLighting::default() };
     let lit = &mut lighting.on(&mut mesh);
     direct_pass::refine(context, settings, lit, &mut observer);
     direct_light::light_leaves(context, lit, &mut observer);
-    let stages = stages::stages(context, settings, lit, stages, &mut observer)?;
+    let snapshots = snapshots::snapshots(context, settings, lit, snapshots, &mut observer)?;
     let mut exchange = Interreflection::new(context, settings, lit.mesh, lit.light, &mut observer)?;
     exchange.reach_vertices(context, settings, lit, &mut observer);
-    Ok((exchange.solution(mesh, optics, lighting), stages))
+    Ok((exchange.solution(mesh, optics, lighting), snapshots))
 }

@@ -28,7 +28,7 @@ impl<'a> Observer<'a> {
         observe: &'a mut dyn FnMut(&Progress) -> ControlFlow<Cancellation>,
         checkpoint: &'a mut Checkpoint,
     ) -> Self {
-        let told = Progress { phase: Phase::Lamps, done: 0.0 };
+        let told = Progress { phase: Phase::Emitters, done: 0.0 };
         Self { observe, told, part: 0.0, cancelled: None, checkpoint }
     }
 

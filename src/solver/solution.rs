@@ -54,8 +54,8 @@ pub struct Progress {
 /// The passes of a solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Phase {
-    /// What each patch sees of the lamps.
-    Lamps,
+    /// What each patch sees of the emitters.
+    Emitters,
     /// Direct light, refining the mesh.
     Direct,
     /// Lines on which direct light has a kink or a bend.

@@ -14,7 +14,8 @@ pub(super) const HOT: f64 = 8.0;
 /// The mean is settled after so many rounds, whatever is hot.
 const ROUNDS: usize = 8;
 
-/// The mean counts as at least this share of what direct light lets expect: to look for less would take time without end.
+/// The mean counts as at least this share of what direct light lets expect: to look for less would take time without
+/// end.
 const LEAST: f64 = 1.0 / 32.0;
 
 /// What leaves have of a `light`, W, none counting as brighter than `most`, W/m².
@@ -28,8 +29,8 @@ pub(super) fn capped_power(
 }
 
 /// Mean radiosity of a scene whose vertices are lit, W/m², by which errors are measured.
-pub(crate) fn level(mesh: &Mesh, optics: &Optics, light: &VertexLight) -> f64 {
-    Sources::of_vertices(mesh, optics, light).level(mesh, light)
+pub(crate) fn mean_radiosity_shown(mesh: &Mesh, optics: &Optics, light: &VertexLight) -> f64 {
+    Sources::of_vertices(mesh, optics, light).mean_radiosity_shown(mesh, light)
 }
 
 /// Reflected radiosities, W/m², emission not included.
@@ -141,15 +142,15 @@ impl<'a> Sources<'a> {
     /// Mean radiosity of a scene, W/m², by which errors are measured: as direct light lets expect, unless far less
     /// of it goes round.
     ///
-    /// Light that is shut in, as between a lamp and the ceiling that it all but touches, makes a small spot hot and the
-    /// room no brighter, and the errors that it hides are those of the room.
-    pub(super) fn level(&self, mesh: &Mesh, light: &VertexLight) -> f64 {
+    /// Light that is shut in, as between an emitter and the ceiling that it all but touches, makes a small spot hot and
+    /// the room no brighter, and the errors that it hides are those of the room.
+    pub(super) fn mean_radiosity_shown(&self, mesh: &Mesh, light: &VertexLight) -> f64 {
         let area: f64 = mesh.leaves().map(|leaf| mesh[leaf].area).sum();
         let capped = |most: f64| {
             let all = capped_power(mesh, mesh.leaves(), most, |leaf| self.mean(leaf));
             all / area.max(f64::MIN_POSITIVE)
         };
-        let found = (0..ROUNDS).fold(capped(f64::INFINITY), |level, _| capped(HOT * level));
+        let found = (0..ROUNDS).fold(capped(f64::INFINITY), |mean, _| capped(HOT * mean));
         let expected = mean_radiosity(mesh, self.optics, light);
         expected.min(2.0 * found).max(LEAST * expected)
     }
@@ -213,8 +214,8 @@ impl RadiosityPiece {
     }
 }
 
-/// What is known at the corners of a polygon, on its parts: each is between a corner, the middles of the edges there, and
-/// the centre.
+/// What is known at the corners of a polygon, on its parts: each is between a corner, the middles of the edges there,
+/// and the centre.
 pub(super) fn quarters<T: Copy>(
     corners: &[T],
     centre: T,

@@ -1,9 +1,9 @@
-//! What a solution starts from: lamps on patches, and surfaces that reflect less than all of the light.
+//! What a solution starts from: emitters on patches, and surfaces that reflect less than all of the light.
 
 use super::observer::Observer;
 use super::relaxation;
 use super::solution::Phase;
-use crate::direct::{Lamps, PatchLight};
+use crate::direct::{DirectLight, Emitters};
 use crate::error::{Error, Result};
 use crate::light::Optics;
 use crate::mesh::Mesh;
@@ -21,23 +21,23 @@ pub(super) const DARK: &str = "nothing in the scene emits light; give a material
 const BLUR: f64 = 4.0;
 
 /// All light straight from emitters on the patches of a mesh; there must be some.
-pub(super) fn lamps_on(
+pub(super) fn emitters_on(
     surfaces: &Surfaces,
     settings: &Settings,
     mesh: &Mesh,
     observer: &mut Observer<'_>,
-) -> Result<PatchLight> {
-    // What is left of lamps once there has been enough is told to the end.
-    let _ = observer.begin(Phase::Lamps, 0.0..1.0);
+) -> Result<DirectLight> {
+    // What is left of emitters once there has been enough is told to the end.
+    let _ = observer.begin(Phase::Emitters, 0.0..1.0);
     let blur = BLUR * settings.min_element.metres(surfaces.extent);
-    let lamps = Lamps::new(surfaces, mesh).seen_by(settings.shadow_rays).blurred(blur);
-    if lamps.is_empty() {
+    let emitters = Emitters::new(surfaces, mesh).seen_by(settings.shadow_rays).blurred(blur);
+    if emitters.is_empty() {
         return Err(Error::Scene(DARK.to_owned()));
     }
     let tolerated = tolerated_direct(settings, surfaces.extent, mesh);
     let occluders = Occluders::new(surfaces);
-    let observe = |done| observer.tell(Phase::Lamps, done);
-    Ok(PatchLight::observed(lamps, occluders, mesh, observe).tolerating(mesh, tolerated))
+    let observe = |done| observer.tell(Phase::Emitters, done);
+    Ok(DirectLight::observed(emitters, occluders, mesh, observe).tolerating(mesh, tolerated))
 }
 
 /// Whether light dies away: loading a file sees to it, a scene made in code may not.

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 /// Why a solver stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Stop {
-    /// The unshot power fell below [`Settings::stop`](crate::settings::Settings::stop); of a [`System`](super::relaxation::System), its residual
-    /// below what was asked for.
+    /// The unshot power fell below [`Settings::unshot_limit`](crate::settings::Settings::unshot_limit); of a
+    /// [`System`](super::relaxation::System), its residual below what was asked for.
     Converged,
     /// A whole sweep over a [`System`](super::relaxation::System) has changed no radiosity by as much as was
     /// asked for.

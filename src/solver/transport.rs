@@ -8,7 +8,7 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::groups::Groups;
+use super::clusters::Clusters;
 use super::links::{CLOSE, CLOSE_SHARE, Link, NEAR, Row};
 use super::parts::{self, SeenFacets};
 use crate::form_factor::contour::point_to_polygon;
@@ -30,18 +30,18 @@ const LOOK_LEVELS: u32 = 2;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Transport<'a> {
     pub(super) mesh: &'a Mesh,
-    pub(super) groups: &'a Groups,
+    pub(super) clusters: &'a Clusters,
     /// By element: whether the light that it shoots first varies so much over it that it glares.
     pub(super) glares: &'a [bool],
 }
 
 impl Transport<'_> {
-    /// The row of a group of patches, most often a single one.
+    /// The row of a cluster of patches, most often a single one.
     pub(super) fn row(self, hemicube: &mut Hemicube<'_>, shooter: usize) -> Row {
-        let Self { mesh, groups, .. } = self;
-        match groups.members(shooter) {
+        let Self { mesh, clusters, .. } = self;
+        match clusters.members(shooter) {
             &[patch] => row_of_patch(self, hemicube, patch),
-            members => parts::row(mesh, groups, hemicube, members),
+            members => parts::row(mesh, clusters, hemicube, members),
         }
     }
 
@@ -63,7 +63,7 @@ impl Transport<'_> {
 /// Where something is so close that the patch's centre cannot see for all of it, its parts look for
 /// themselves.
 fn row_of_patch(transport: Transport<'_>, hemicube: &mut Hemicube<'_>, shooter: PatchId) -> Row {
-    let Transport { mesh, groups, .. } = transport;
+    let Transport { mesh, clusters, .. } = transport;
     let patch = &mesh[shooter];
     let mut row = Row::default();
     let mut open = vec![patch.root];
@@ -77,22 +77,22 @@ fn row_of_patch(transport: Transport<'_>, hemicube: &mut Hemicube<'_>, shooter: 
         }
         let share = mesh[source].area / patch.area;
         row.escaped += hemicube.escaping() * share;
-        for sight in hemicube.visible_patches_of(|patch| !groups.holds(patch)) {
+        for sight in hemicube.visible_patches_of(|patch| !clusters.holds(patch)) {
             if sight.front {
                 Linking { mesh, hemicube, sight }.link(source, &mut row);
             } else {
                 row.on_backs += sight.delta * share;
             }
         }
-        let facets = SeenFacets::new(groups, hemicube);
+        let facets = SeenFacets::new(clusters, hemicube);
         row.on_backs += facets.on_backs * share;
-        for (group, cover) in facets.fronts {
-            let receiver = groups.receiver(mesh, group);
-            let gap = groups.centre(group).distance(place.centre);
+        for (cluster, cover) in facets.fronts {
+            let receiver = clusters.receiver(mesh, cluster);
+            let gap = clusters.centre(cluster).distance(place.centre);
             // Rays do not tell what a patch covers but its form factor; near ones, projection does.
             let exchange =
-                if gap < NEAR * (place.size + groups.size(group)) && !hemicube.is_by_rays() {
-                    parts::exchange_nearby(mesh, &place.corners, groups.members(group), cover)
+                if gap < NEAR * (place.size + clusters.size(cluster)) && !hemicube.is_by_rays() {
+                    parts::exchange_nearby(mesh, &place.corners, clusters.members(cluster), cover)
                 } else {
                     cover.kept * mesh[source].area
                 };

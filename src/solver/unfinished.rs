@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::interpolate::{DIRECT, interpolate};
 use crate::colour::Rgb;
-use crate::direct::PatchLight;
+use crate::direct::DirectLight;
 use crate::light::{Direct, VertexLight};
 use crate::mesh::{Mesh, PatchId, VertexId};
 use crate::visibility::SurfacePoint;
@@ -24,14 +24,14 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 /// hardly divided by a few rays, all others from those.
 ///
 /// Where even that takes too long, corners have what others of their patch have, or of their surface.
-pub(super) fn make_do(lamps: &PatchLight, mesh: &Mesh, light: &mut VertexLight) {
+pub(super) fn make_do(emitters: &DirectLight, mesh: &Mesh, light: &mut VertexLight) {
     let mut go_on = within(TIME);
     let corners = mesh.patches.iter().flat_map(|patch| mesh[patch.root].corners.iter().copied());
-    look(lamps, mesh, light, corners, &mut go_on);
+    look(emitters, mesh, light, corners, &mut go_on);
     let coarse = mesh.leaves().filter(|&leaf| mesh[leaf].level <= COARSE);
     let middles = coarse.filter_map(|leaf| mesh.find_middle(leaf));
     let places = middles.flat_map(|middle| middle.edges.into_iter().chain([middle.centre]));
-    look(lamps, mesh, light, places, &mut go_on);
+    look(emitters, mesh, light, places, &mut go_on);
     borrow(mesh, light);
     interpolate(mesh, light, DIRECT);
 }
@@ -49,7 +49,7 @@ fn dark(light: &VertexLight, vertices: impl Iterator<Item = VertexId>) -> Vec<Ve
 
 /// Looks roughly at those of the vertices whose light is not known, as long as it may.
 fn look(
-    lamps: &PatchLight,
+    emitters: &DirectLight,
     mesh: &Mesh,
     light: &mut VertexLight,
     vertices: impl Iterator<Item = VertexId>,
@@ -59,7 +59,7 @@ fn look(
     let at = |(): &mut (), &vertex: &VertexId| {
         let point = SurfacePoint::new(mesh[vertex].site, mesh[mesh[vertex].patch].normal);
         let mut random = fastrand::Rng::with_seed(vertex.index() as u64);
-        lamps.lamps().rough(lamps.occluders(), point, || random.f64())
+        emitters.emitters().rough(emitters.occluders(), point, || random.f64())
     };
     let found: Vec<Direct> = in_batches(&dark, |_| (), at, go_on);
     for (&vertex, direct) in dark.iter().zip(found) {

@@ -8,8 +8,8 @@ use serde::Serialize;
 /// visible, and these how much light that is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Work {
-    /// Direct light: one for each pair of a place and a lamp, or convex piece of one, that shines there
-    /// unless something hides it; the parts that are left of a partly hidden lamp are not counted again.
+    /// Direct light: one for each pair of a place and an emitter, or convex piece of one, that shines there
+    /// unless something hides it; the parts that are left of a partly hidden emitter are not counted again.
     pub direct: u64,
     /// Exchange of reflected light: one for each pair of a point of an element and another element.
     pub exchange: u64,

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::probe::Reading;
+use super::illuminance::Reading;
 use crate::error::{Error, Result};
 use crate::surface::Surfaces;
 use crate::visibility::{Met, Occluders, SurfacePoint};

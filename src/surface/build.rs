@@ -1,9 +1,10 @@
-//! From the faces of a scene to its surfaces: joined, cut along their masks and where they overlap, and where they touch.
+//! From the faces of a scene to its surfaces: joined, cut along their masks and where they overlap, and where they
+//! touch.
 
 use glam::{DAffine2, DMat2, DVec2};
 
 use super::merge::PlanarRegion;
-use super::model::{Surface, Surfaces, TOLERANCE};
+use super::model::{EPSILON, Surface, Surfaces};
 use super::{contact, mask, merge, outliers, overlap};
 use crate::geometry::polygon::Ring;
 use crate::scene::Scene;
@@ -14,14 +15,15 @@ pub fn surfaces_of(scene: &Scene) -> Surfaces {
     if let Some(flaw) = scene.flaw() {
         return Surfaces::none(flaw);
     }
-    let regions = merge::regions(scene, TOLERANCE * scene.extent());
+    let regions = merge::regions(scene, EPSILON * scene.extent());
     let mut notes = Vec::new();
     let regions = mask::cut(scene, regions, &mut notes);
     let regions = overlap::without_overlaps(scene, regions, &mut notes);
     with_contacts(of_regions(scene, regions), notes)
 }
 
-/// The faces of a scene, each a surface of its own, or several if its material has holes, and their contact lines; or a [flaw](Surfaces::flaw).
+/// The faces of a scene, each a surface of its own, or several if its material has holes, and their contact lines; or a
+/// [flaw](Surfaces::flaw).
 pub fn faces_of(scene: &Scene) -> Surfaces {
     if let Some(flaw) = scene.flaw() {
         return Surfaces::none(flaw);
@@ -35,7 +37,7 @@ fn with_contacts(mut surfaces: Surfaces, notes: Vec<String>) -> Surfaces {
     if surfaces.list.is_empty() {
         return Surfaces::none("cut-outs leave nothing of the scene's faces".to_owned());
     }
-    contact::find_contacts(&mut surfaces.list, surfaces.extent, surfaces.tolerance);
+    contact::find_contacts(&mut surfaces.list, surfaces.extent, surfaces.epsilon);
     Surfaces { notes, ..surfaces }
 }
 
@@ -51,7 +53,7 @@ fn of_regions(scene: &Scene, regions: Vec<PlanarRegion>) -> Surfaces {
         list.extend(back);
     }
     let extent = outliers::usual_extent(&list);
-    let tolerance = TOLERANCE * extent;
+    let epsilon = EPSILON * extent;
     Surfaces {
         list,
         objects: scene.objects.clone(),
@@ -61,7 +63,7 @@ fn of_regions(scene: &Scene, regions: Vec<PlanarRegion>) -> Surfaces {
         materials: scene.materials.clone(),
         textures: scene.textures.clone(),
         extent,
-        tolerance,
+        epsilon,
         notes: Vec::new(),
         flaw: None,
     }

@@ -38,7 +38,7 @@ const DIVISIBLE: f64 = 2.0;
 #[derive(Clone, Copy, Debug)]
 struct ContactLimits {
     /// This far from a plane is in it.
-    tolerance: f64,
+    epsilon: f64,
     /// This far from a surface may be close to it.
     close: f64,
     /// What is smaller is not shown.
@@ -47,8 +47,8 @@ struct ContactLimits {
 
 /// Finds the contact lines of every surface with every other, in a scene of this extent, m, and stores
 /// them in both.
-pub(super) fn find_contacts(surfaces: &mut [Surface], extent: f64, tolerance: f64) {
-    let near = ContactLimits::new(extent, tolerance);
+pub(super) fn find_contacts(surfaces: &mut [Surface], extent: f64, epsilon: f64) {
+    let near = ContactLimits::new(extent, epsilon);
     let all = &*surfaces;
     let tree = Tree::new(all.par_iter().map(Surface::aabb).collect());
     let lines_of = |found: &mut Vec<u32>, receiver: usize| {
@@ -62,13 +62,13 @@ pub(super) fn find_contacts(surfaces: &mut [Surface], extent: f64, tolerance: f6
 }
 
 impl ContactLimits {
-    fn new(extent: f64, tolerance: f64) -> Self {
-        Self { tolerance, close: CLOSE * extent, smallest: SMALLEST * extent }
+    fn new(extent: f64, epsilon: f64) -> Self {
+        Self { epsilon, close: CLOSE * extent, smallest: SMALLEST * extent }
     }
 
     /// How far what hovers close over a surface may be, m; over two of them, the smaller counts.
     fn reach(&self, bounds: Aabb) -> f64 {
-        self.close.min(CLOSE_FOR_SIZE * bounds.diagonal()).max(2.0 * self.tolerance)
+        self.close.min(CLOSE_FOR_SIZE * bounds.diagonal()).max(2.0 * self.epsilon)
     }
 
     /// The surfaces that may have lines on one: those with a part close over it or in its plane.
@@ -82,11 +82,11 @@ impl ContactLimits {
         let meets = |other: Aabb| {
             let middle = plane.height(other.middle());
             let around = other.half_extent(plane.normal);
-            // Twice the tolerance, so that rounding loses nothing.
+            // Twice the epsilon, so that rounding loses nothing.
             other.diagonal() >= self.smallest
                 && are_close(bounds, other, reach)
-                && middle - around <= reach + self.tolerance
-                && middle + around >= -2.0 * self.tolerance
+                && middle - around <= reach + self.epsilon
+                && middle + around >= -2.0 * self.epsilon
         };
         tree.find(meets, found);
     }
@@ -102,7 +102,7 @@ impl ContactLimits {
         if !are_close(bounds[receiver], bounds[other], close) {
             return Vec::new();
         }
-        contacts(&surfaces[receiver], &surfaces[other], [self.tolerance, close])
+        contacts(&surfaces[receiver], &surfaces[other], [self.epsilon, close])
     }
 }
 
@@ -110,10 +110,10 @@ impl ContactLimits {
 type Heights = SmallVec<[SmallVec<[f64; 4]>; 1]>;
 
 /// The lines along which `other` meets the front or the plane of `receiver`, inside of it.
-fn contacts(receiver: &Surface, other: &Surface, [tolerance, close]: [f64; 2]) -> Vec<Contact> {
+fn contacts(receiver: &Surface, other: &Surface, [epsilon, close]: [f64; 2]) -> Vec<Contact> {
     let height = |&p: &_| {
         let height = receiver.plane.height(other.plane.lift(p));
-        if height.abs() <= tolerance { 0.0 } else { height }
+        if height.abs() <= epsilon { 0.0 } else { height }
     };
     let rings = other.rings.iter();
     let heights: Heights = rings.map(|ring| ring.iter().map(height).collect()).collect();
@@ -130,7 +130,7 @@ fn contacts(receiver: &Surface, other: &Surface, [tolerance, close]: [f64; 2]) -
     let pierced = piercing_line(receiver, other, &heights).into_iter();
     lines.extend(pierced.map(|segment| Contact { segment, gap: 0.0 }));
     let parts = |Contact { segment, gap }| {
-        let parts = inside(&receiver.rings, segment, tolerance).into_iter();
+        let parts = inside(&receiver.rings, segment, epsilon).into_iter();
         parts.map(move |segment| Contact { segment, gap })
     };
     lines.into_iter().flat_map(parts).collect()
@@ -175,13 +175,13 @@ fn piercing_line(receiver: &Surface, other: &Surface, heights: &Heights) -> Vec<
 }
 
 /// The parts of a segment inside rings and not on its outline.
-pub(super) fn inside(rings: &[Ring], segment: Segment, tolerance: f64) -> Vec<Segment> {
+pub(super) fn inside(rings: &[Ring], segment: Segment, epsilon: f64) -> Vec<Segment> {
     let outline = || rings.iter().flat_map(|ring| edges(ring));
     let mut parts = vec![segment];
     for edge in outline() {
         let line = Line::through(edge);
         for k in (0..parts.len()).rev() {
-            if let [Some(left), Some(right)] = line.split_segment(parts[k], tolerance) {
+            if let [Some(left), Some(right)] = line.split_segment(parts[k], epsilon) {
                 parts[k] = left;
                 parts.insert(k + 1, right);
             }
@@ -189,9 +189,9 @@ pub(super) fn inside(rings: &[Ring], segment: Segment, tolerance: f64) -> Vec<Se
     }
     let is_inside = |&[a, b]: &Segment| {
         let middle = a.midpoint(b);
-        a.distance(b) > tolerance
+        a.distance(b) > epsilon
             && contains(rings, middle)
-            && outline().all(|edge| distance(edge, middle) > tolerance)
+            && outline().all(|edge| distance(edge, middle) > epsilon)
     };
     parts.retain(is_inside);
     parts
@@ -249,12 +249,12 @@ mod tests {
     }
 
     /// Lines of all pairs, large enough, with the same distances.
-    fn of_all_pairs(Surfaces { list, extent, tolerance, .. }: &Surfaces) -> Vec<Vec<Contact>> {
-        let near = ContactLimits::new(*extent, *tolerance);
+    fn of_all_pairs(Surfaces { list, extent, epsilon, .. }: &Surfaces) -> Vec<Vec<Contact>> {
+        let near = ContactLimits::new(*extent, *epsilon);
         let size = |k: usize| list[k].extent();
         let lines = |receiver: usize, other: usize| {
             let reach = near.reach(list[receiver].aabb()).min(near.reach(list[other].aabb()));
-            contacts(&list[receiver], &list[other], [*tolerance, reach])
+            contacts(&list[receiver], &list[other], [*epsilon, reach])
         };
         let of = |receiver: usize| {
             let others = (0..list.len()).filter(|&k| k != receiver && size(k) >= near.smallest);

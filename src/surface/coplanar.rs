@@ -10,8 +10,8 @@ use crate::geometry::polygon::area;
 use crate::scene::Scene;
 
 /// True if two regions lie in one plane and face the same way.
-pub(super) fn are_level(outer: &PlanarRegion, inner: &PlanarRegion, tolerance: f64) -> bool {
-    let level = |p: DVec3| outer.plane.height(p).abs() <= tolerance;
+pub(super) fn are_level(outer: &PlanarRegion, inner: &PlanarRegion, epsilon: f64) -> bool {
+    let level = |p: DVec3| outer.plane.height(p).abs() <= epsilon;
     let mut corners = inner.rings.iter().flatten().map(|&p| inner.plane.lift(p));
     inner.plane.normal.dot(outer.plane.normal) > 0.999 && corners.all(level)
 }

@@ -71,13 +71,13 @@ impl<'a> Seed<'a> {
 
     /// True if another face may be of its region. Facets of a curved surface stay apart: each has
     /// its own light.
-    fn continues_in(&self, scene: &Scene, other: &Face, tolerance: f64) -> bool {
+    fn continues_in(&self, scene: &Scene, other: &Face, epsilon: f64) -> bool {
         let corners = other.corners(&scene.positions);
         self.face.material == other.material
             && self.face.normals.is_empty()
             && other.normals.is_empty()
             && plane_of(scene, other).normal.dot(self.plane.normal) > 0.5
-            && corners.iter().all(|&p| self.plane.height(p).abs() <= tolerance)
+            && corners.iter().all(|&p| self.plane.height(p).abs() <= epsilon)
             && self.goes_on_over(scene, other)
     }
 
@@ -90,7 +90,7 @@ impl<'a> Seed<'a> {
 }
 
 /// The regions of a scene, in the order of their first faces.
-pub(super) fn regions(scene: &Scene, tolerance: f64) -> Vec<PlanarRegion> {
+pub(super) fn regions(scene: &Scene, epsilon: f64) -> Vec<PlanarRegion> {
     let neighbours = Neighbours::new(scene);
     let mut taken = vec![false; scene.faces.len()];
     let mut regions = Vec::new();
@@ -104,7 +104,7 @@ pub(super) fn regions(scene: &Scene, tolerance: f64) -> Vec<PlanarRegion> {
         let mut next = 0;
         while next < faces.len() {
             for other in neighbours.of(scene, faces[next]) {
-                if !taken[other] && seed.continues_in(scene, &scene.faces[other], tolerance) {
+                if !taken[other] && seed.continues_in(scene, &scene.faces[other], epsilon) {
                     taken[other] = true;
                     faces.push(other);
                 }

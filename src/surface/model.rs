@@ -13,7 +13,7 @@ use crate::scene::{Camera, Material, MaterialId, NamedLight, Node, Texture};
 
 /// Distances below this share of the scene's extent count as zero: ten times the rounding of 32-bit
 /// coordinates.
-pub(super) const TOLERANCE: f64 = 2e-7;
+pub(super) const EPSILON: f64 = 2e-7;
 
 /// All surfaces of a scene, and what else of it light and pictures depend on.
 #[derive(Clone, Debug, Serialize)]
@@ -36,7 +36,7 @@ pub struct Surfaces {
     /// ground on which a house stands.
     pub extent: f64,
     /// Distances that count as zero, m.
-    pub tolerance: f64,
+    pub epsilon: f64,
     /// What was done about faces in one place, a line each, for the user to read.
     pub notes: Vec<String>,
     /// Why the scene has no surfaces, if it could not be looked at.

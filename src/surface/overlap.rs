@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::contact::inside;
 use super::coplanar::{Rank, are_level, size};
 use super::merge::PlanarRegion;
-use super::model::TOLERANCE;
+use super::model::EPSILON;
 use super::partial_overlap;
 use crate::geometry::boxes::{self, Aabb, Tree, are_close};
 use crate::geometry::polygon::{Ring, centroid, contains, edges};
@@ -21,13 +21,13 @@ pub(super) fn without_overlaps(
     mut regions: Vec<PlanarRegion>,
     notes: &mut Vec<String>,
 ) -> Vec<PlanarRegion> {
-    let tolerance = TOLERANCE * scene.extent();
+    let epsilon = EPSILON * scene.extent();
     let ranks: Vec<Rank> =
         (0..regions.len()).into_par_iter().map(|k| Rank::new(scene, &regions, k)).collect();
     let mut within: Vec<Vec<usize>> = vec![Vec::new(); regions.len()];
     let mut beside = Vec::new();
-    let pairs = level_pairs(&regions, tolerance);
-    let covered = |&pair: &[usize; 2]| is_covered(&regions, pair, &ranks, tolerance);
+    let pairs = level_pairs(&regions, epsilon);
+    let covered = |&pair: &[usize; 2]| is_covered(&regions, pair, &ranks, epsilon);
     let covered: Vec<bool> = pairs.par_iter().map(covered).collect();
     for ([large, small], is_covered) in pairs.into_iter().zip(covered) {
         if is_covered {
@@ -48,25 +48,25 @@ pub(super) fn without_overlaps(
         let seen: Vec<Ring> = seen.collect();
         regions[large].rings.extend(seen);
     }
-    let cut = partial_overlap::cut(&mut regions, &beside, &ranks, tolerance);
+    let cut = partial_overlap::cut(&mut regions, &beside, &ranks, epsilon);
     note_count(notes, inner.len(), "surface", "cut out of larger ones in whose planes they lie");
     note_count(notes, cut, "surface", "cut where another lies in its plane");
     regions
 }
 
 /// Ordered pairs of regions of which the second lies in the plane of the first, faces the same way and may touch it.
-fn level_pairs(regions: &[PlanarRegion], tolerance: f64) -> Vec<[usize; 2]> {
+fn level_pairs(regions: &[PlanarRegion], epsilon: f64) -> Vec<[usize; 2]> {
     let tree = Tree::new(regions.par_iter().map(bounds).collect());
     let of = |found: &mut Vec<u32>, outer: usize| {
         let plane = &regions[outer].plane;
         let meets = |other: Aabb| {
             let around = other.half_extent(plane.normal);
-            are_close(tree.boxes()[outer], other, tolerance)
-                && plane.height(other.middle()).abs() <= around + 2.0 * tolerance
+            are_close(tree.boxes()[outer], other, epsilon)
+                && plane.height(other.middle()).abs() <= around + 2.0 * epsilon
         };
         tree.find(meets, found);
         let others = found.iter().map(|&inner| inner as usize).filter(|&inner| inner != outer);
-        let level = others.filter(|&k| are_level(&regions[outer], &regions[k], tolerance));
+        let level = others.filter(|&k| are_level(&regions[outer], &regions[k], epsilon));
         level.map(|inner| [outer, inner]).collect::<Vec<_>>()
     };
     (0..regions.len()).into_par_iter().map_init(Vec::new, of).flatten_iter().collect()
@@ -88,7 +88,7 @@ fn is_covered(
     regions: &[PlanarRegion],
     [large, small]: [usize; 2],
     ranks: &[Rank],
-    tolerance: f64,
+    epsilon: f64,
 ) -> bool {
     let (outer, inner) = (&regions[large], &regions[small]);
     let sizes = [size(outer), size(inner)];
@@ -96,12 +96,12 @@ fn is_covered(
     let is_meant = alike && ranks[large].of_equals() >= ranks[small].of_equals();
     (alike || sizes[0] > sizes[1])
         && !is_meant
-        && is_within(&seen_from(regions, [large, small]), &outer.rings, tolerance)
+        && is_within(&seen_from(regions, [large, small]), &outer.rings, epsilon)
 }
 
 /// True if what is inside `rings` is inside `others`, borders touching or not.
-fn is_within(rings: &[Ring], others: &[Ring], tolerance: f64) -> bool {
-    let outside = |segment| inside(rings, segment, tolerance).is_empty();
+fn is_within(rings: &[Ring], others: &[Ring], epsilon: f64) -> bool {
+    let outside = |segment| inside(rings, segment, epsilon).is_empty();
     let crossed = others.iter().flat_map(|ring| edges(ring)).any(|edge| !outside(edge));
     // No border of the others runs through it, so one place speaks for all, but may lie in a hole of its own.
     let middle = rings.first().map(inner_point);

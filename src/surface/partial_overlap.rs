@@ -10,7 +10,7 @@ use super::merge::PlanarRegion;
 
 use crate::geometry::polygon::{Ring, area, bounds};
 
-/// What one polygon has in common with another is nothing if it is narrower than this many tolerances.
+/// What one polygon has in common with another is nothing if it is narrower than this many epsilons.
 const NARROW: f64 = 10.0;
 
 /// Cuts of each of these pairs the one that ranks lower, where both lie in one plane, face the same way and
@@ -22,19 +22,19 @@ pub(super) fn cut(
     regions: &mut Vec<PlanarRegion>,
     pairs: &[[usize; 2]],
     ranks: &[Rank],
-    tolerance: f64,
+    epsilon: f64,
 ) -> usize {
     // What is left of those that were cut.
     let mut pieces: Vec<Option<Vec<Vec<Ring>>>> = vec![None; regions.len()];
     let mut count = 0;
     for &[low, high] in pairs.iter().filter(|&&[low, high]| ranks[low] < ranks[high]) {
         let (own, other) = (&regions[low], &regions[high]);
-        if !are_level(own, other, tolerance) {
+        if !are_level(own, other, epsilon) {
             continue;
         }
         let before = pieces[low].clone().unwrap_or_else(|| vec![own.rings.clone()]);
         let other: Vec<Ring> = other.rings.iter().map(|ring| seen(own, other, ring)).collect();
-        if let Some(after) = without(&before, &other, tolerance) {
+        if let Some(after) = without(&before, &other, epsilon) {
             count += usize::from(pieces[low].replace(after).is_none());
         }
     }
@@ -50,11 +50,11 @@ fn seen(own: &PlanarRegion, other: &PlanarRegion, ring: &Ring) -> Ring {
 }
 
 /// Polygons with holes, without what they have in common with another; `None` if that is nothing.
-fn without(shapes: &[Vec<Ring>], other: &[Ring], tolerance: f64) -> Option<Vec<Vec<Ring>>> {
+fn without(shapes: &[Vec<Ring>], other: &[Ring], epsilon: f64) -> Option<Vec<Vec<Ring>>> {
     let [low, high] = bounds(shapes.iter().flatten().flatten());
     let [other_low, other_high] = bounds(other.iter().flatten());
     let common = high.min(other_high) - low.max(other_low);
-    if common.min_element() <= tolerance {
+    if common.min_element() <= epsilon {
         return None;
     }
     let shapes: Vec<Vec<Vec<[f64; 2]>>> = shapes.iter().map(|shape| plain(shape)).collect();
@@ -64,7 +64,7 @@ fn without(shapes: &[Vec<Ring>], other: &[Ring], tolerance: f64) -> Option<Vec<V
     let is_wide = |shape: &Vec<Ring>| {
         let length: f64 =
             shape.iter().flatten().map(|p| p.distance(shape[0][0])).fold(0.0, f64::max);
-        size(shape) > NARROW * tolerance * length
+        size(shape) > NARROW * epsilon * length
     };
     if !shared.iter().any(is_wide) {
         return None;

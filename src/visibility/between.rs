@@ -14,7 +14,7 @@ use crate::geometry::{Pieces, PlanarPolygon};
 #[derive(Debug)]
 pub struct Between {
     parts: Vec<Occluder>,
-    tolerance: f64,
+    epsilon: f64,
     /// True if one of them hides each polygon from the other.
     hides_all: bool,
 }
@@ -22,30 +22,29 @@ pub struct Between {
 impl Occluders {
     /// What stands between two polygons that face each other.
     pub fn between(&self, a: PlanarPolygon<'_>, b: PlanarPolygon<'_>) -> Between {
-        let tolerance = self.tolerance;
-        let shaft = Shaft::between(&ConvexBody::polygon(a), &ConvexBody::polygon(b), tolerance);
+        let epsilon = self.epsilon;
+        let shaft = Shaft::between(&ConvexBody::polygon(a), &ConvexBody::polygon(b), epsilon);
         let mut near: SmallVec<[&Occluder; 16]> = SmallVec::new();
         self.for_each_in(&self.all(), &shaft, |number, _| {
             near.push(&self.polygons[number.index()]);
             true
         });
-        let hides_all = near.iter().any(|occluder| occluder.hides(a.corners, b.corners, tolerance));
+        let hides_all = near.iter().any(|occluder| occluder.hides(a.corners, b.corners, epsilon));
         let along = (b.corners[0] - a.corners[0]).normalize_or_zero();
-        let parts = near.iter().filter_map(|occluder| occluder.inside(shaft.sides(), tolerance));
+        let parts = near.iter().filter_map(|occluder| occluder.inside(shaft.sides(), epsilon));
         // What hides most comes first: it leaves the others little to cut.
         let mut parts: Vec<(f64, Occluder)> =
             parts.map(|part| (area_vector(&part.corners).dot(along).abs(), part)).collect();
         parts.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        Between { parts: parts.into_iter().map(|(_, part)| part).collect(), tolerance, hides_all }
+        Between { parts: parts.into_iter().map(|(_, part)| part).collect(), epsilon, hides_all }
     }
 
     /// True if nothing stands between two polygons that face each other.
     pub fn is_clear(&self, a: PlanarPolygon<'_>, b: PlanarPolygon<'_>) -> bool {
-        let shaft =
-            Shaft::between(&ConvexBody::polygon(a), &ConvexBody::polygon(b), self.tolerance);
+        let shaft = Shaft::between(&ConvexBody::polygon(a), &ConvexBody::polygon(b), self.epsilon);
         let mut clear = true;
         self.for_each_in(&self.all(), &shaft, |_, occluder| {
-            clear &= occluder.inside(shaft.sides(), self.tolerance).is_none();
+            clear &= occluder.inside(shaft.sides(), self.epsilon).is_none();
             clear
         });
         clear
@@ -54,8 +53,8 @@ impl Occluders {
 
 impl Between {
     /// Distances that count as zero, m.
-    pub fn tolerance(&self) -> f64 {
-        self.tolerance
+    pub fn epsilon(&self) -> f64 {
+        self.epsilon
     }
 
     /// True if nothing stands between the polygons.
@@ -73,7 +72,7 @@ impl Between {
     ///
     /// The eye must be in front of the source's plane.
     pub fn visible_part(&self, eye: DVec3, source: PlanarPolygon<'_>) -> Pieces {
-        let mut seen = VisibleRegion::new(eye, source, self.tolerance);
+        let mut seen = VisibleRegion::new(eye, source, self.epsilon);
         for part in &self.parts {
             if let Some(shadow) = seen.shadow(part) {
                 seen.subtract(&shadow);

@@ -53,7 +53,7 @@ impl Occluders {
         b: &ConvexBody,
         ignored: impl Fn(SurfaceId) -> bool,
     ) -> Blockers {
-        let shaft = Shaft::between(a, b, self.tolerance);
+        let shaft = Shaft::between(a, b, self.epsilon);
         let search = Search { occluders: self, bodies: [a, b], shaft: &shaft, ignored: &ignored };
         match around {
             Blockers::Opaque => Blockers::Opaque,
@@ -78,9 +78,9 @@ impl Occluders {
             }
             Blockers::Many(nodes) => self.for_each_under(
                 nodes,
-                |low, high| shaft.meets_box(low, high, self.tolerance),
+                |low, high| shaft.meets_box(low, high, self.epsilon),
                 |number, occluder| {
-                    !shaft.meets(&occluder.corners, self.tolerance) || visit(number, occluder)
+                    !shaft.meets(&occluder.corners, self.epsilon) || visit(number, occluder)
                 },
             ),
         }
@@ -94,10 +94,10 @@ impl Occluders {
         b: &ConvexBody,
         most: usize,
     ) -> Vec<OccluderId> {
-        let shaft = Shaft::between(a, b, self.tolerance);
+        let shaft = Shaft::between(a, b, self.epsilon);
         let mut numbers = Vec::new();
         self.for_each_in(around, &shaft, |number, occluder| {
-            if occluder.inside(shaft.sides(), self.tolerance).is_some() {
+            if occluder.inside(shaft.sides(), self.epsilon).is_some() {
                 numbers.push(number);
             }
             numbers.len() < most
@@ -121,7 +121,7 @@ impl<F: Fn(SurfaceId) -> bool> Search<'_, F> {
         for number in numbers {
             let occluder = &occluders.polygons[number.index()];
             if (self.ignored)(occluder.surface)
-                || occluder.inside(shaft.sides(), occluders.tolerance).is_none()
+                || occluder.inside(shaft.sides(), occluders.epsilon).is_none()
             {
                 continue;
             }
@@ -187,11 +187,11 @@ impl<F: Fn(SurfaceId) -> bool> Search<'_, F> {
 
     fn reaches(&self, node: u32) -> bool {
         let (low, high) = self.occluders.bounds_of(node);
-        self.shaft.meets_box(low, high, self.occluders.tolerance)
+        self.shaft.meets_box(low, high, self.occluders.epsilon)
     }
 
     fn hides_all(&self, occluder: &Occluder) -> bool {
         let [a, b] = self.bodies;
-        occluder.hides(a.corners(), b.corners(), self.occluders.tolerance)
+        occluder.hides(a.corners(), b.corners(), self.occluders.epsilon)
     }
 }

@@ -32,14 +32,14 @@ impl Occluders {
         let mut nearest: Option<(f64, usize)> = None;
         let mut ignored = RayHit::none();
         self.bvh.ray_traverse(ray, &mut ignored, |_, slot| {
-            let met = self.polygons[slot].meet(place, direction, self.tolerance);
+            let met = self.polygons[slot].meet(place, direction, self.epsilon);
             let Some(distance) = met.filter(|&d| nearest.is_none_or(|(nearest, _)| d < nearest))
             else {
                 return f32::INFINITY;
             };
             nearest = Some((distance, slot));
             // Beyond it by more than 32 bits round: boxes at the same distance are still to be entered.
-            (distance + self.tolerance) as f32
+            (distance + self.epsilon) as f32
         });
         nearest.map(|(distance, slot)| {
             let Occluder { surface, plane, .. } = self.polygons[slot];
@@ -51,12 +51,12 @@ impl Occluders {
 
 impl Occluder {
     /// Distance along a ray to the polygon, m, if the ray meets it.
-    fn meet(&self, place: DVec3, direction: DVec3, tolerance: f64) -> Option<f64> {
+    fn meet(&self, place: DVec3, direction: DVec3, epsilon: f64) -> Option<f64> {
         let (depth, slope) = (self.plane.depth(place), self.plane.normal.dot(direction));
-        if depth.abs() <= tolerance || depth * slope >= 0.0 {
+        if depth.abs() <= epsilon || depth * slope >= 0.0 {
             return None;
         }
         let distance = -depth / slope;
-        self.holds(place + direction * distance, tolerance).then_some(distance)
+        self.holds(place + direction * distance, epsilon).then_some(distance)
     }
 }

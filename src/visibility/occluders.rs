@@ -20,7 +20,7 @@ pub struct Occluders {
     /// Near the middle of the scene, m: the hierarchy works in 32 bits.
     pub(super) centre: DVec3,
     extent: f64,
-    pub(super) tolerance: f64,
+    pub(super) epsilon: f64,
 }
 
 impl std::fmt::Debug for Occluders {
@@ -35,29 +35,29 @@ const ROUNDING: f64 = 1e-6;
 impl Occluders {
     /// The occluders of a scene.
     pub fn new(surfaces: &Surfaces) -> Self {
-        Self::of(Occluder::all_of(surfaces).collect(), surfaces.tolerance)
+        Self::of(Occluder::all_of(surfaces).collect(), surfaces.epsilon)
     }
 
-    /// Convex planar polygons as occluders; distances up to `tolerance`, m, count as zero.
+    /// Convex planar polygons as occluders; distances up to `epsilon`, m, count as zero.
     ///
     /// Polygons without area are left out.
-    pub fn from_polygons(polygons: &[&[DVec3]], tolerance: f64) -> Self {
+    pub fn from_polygons(polygons: &[&[DVec3]], epsilon: f64) -> Self {
         let normal = |p: &[DVec3]| (p[1] - p[0]).cross(p[2] - p[0]).try_normalize();
         let occluder = |(number, p): (usize, &&[DVec3])| {
             let plane = HalfSpace::new(p[0], normal(p)?);
             Some(Occluder { corners: (*p).into(), plane, surface: SurfaceId(number as u32) })
         };
-        Self::of(polygons.iter().enumerate().filter_map(occluder).collect(), tolerance)
+        Self::of(polygons.iter().enumerate().filter_map(occluder).collect(), epsilon)
     }
 
-    fn of(polygons: Vec<Occluder>, tolerance: f64) -> Self {
+    fn of(polygons: Vec<Occluder>, epsilon: f64) -> Self {
         let corners = || polygons.iter().flat_map(|p| p.corners.iter().copied());
         let low = corners().fold(DVec3::INFINITY, DVec3::min);
         let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
         let centre = if low.is_finite() { low.midpoint(high) } else { DVec3::ZERO };
         let extent = if low.is_finite() { low.distance(high) } else { 0.0 };
         // Grown so that rounding to 32 bits loses nothing, however far out.
-        let margin = Vec3A::splat((tolerance * 5.0).max(ROUNDING * extent) as f32);
+        let margin = Vec3A::splat((epsilon * 5.0).max(ROUNDING * extent) as f32);
         let boxes: Vec<Aabb> = polygons
             .iter()
             .map(|polygon| {
@@ -68,12 +68,12 @@ impl Occluders {
             .collect();
         let bvh = hierarchy(&boxes);
         let ordered = bvh.primitive_indices.iter().map(|&k| polygons[k as usize].clone()).collect();
-        Self { polygons: ordered, bvh, centre, extent, tolerance }
+        Self { polygons: ordered, bvh, centre, extent, epsilon }
     }
 
     /// Distances that count as zero, m.
-    pub fn tolerance(&self) -> f64 {
-        self.tolerance
+    pub fn epsilon(&self) -> f64 {
+        self.epsilon
     }
 
     /// A distance from within the scene to beyond all of it, m.
@@ -112,7 +112,7 @@ impl Occluders {
         let ray = ray(a - self.centre, along, a.distance(b) as f32);
         !self.bvh.ray_traverse_miss(ray, |_, slot| {
             let occluder = &self.polygons[slot];
-            let blocks = occluder.crosses(a, b, self.tolerance) && !ignored(occluder.surface);
+            let blocks = occluder.crosses(a, b, self.epsilon) && !ignored(occluder.surface);
             if blocks { 0.0 } else { f32::INFINITY }
         })
     }

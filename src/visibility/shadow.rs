@@ -24,7 +24,7 @@ struct SourcePiece {
     bounds: Rectangle,
 }
 
-/// Share of the tolerance by which a shadow must reach into a piece: above rounding alone.
+/// Share of the epsilon by which a shadow must reach into a piece: above rounding alone.
 const ROUNDING: f64 = 1e-3;
 
 /// What an eye sees of a source.
@@ -38,7 +38,7 @@ pub(super) struct VisibleRegion {
     axes: [DVec3; 2],
     whole: Flat,
     pieces: SmallVec<[SourcePiece; 4]>,
-    tolerance: f64,
+    epsilon: f64,
 }
 
 /// A half space where it meets the source's plane.
@@ -77,8 +77,8 @@ impl From<Flat> for SourcePiece {
 }
 
 impl VisibleRegion {
-    /// All of `source`, in front of whose plane the eye is; distances up to `tolerance`, m, count as zero.
-    pub(super) fn new(eye: DVec3, source: PlanarPolygon<'_>, tolerance: f64) -> Self {
+    /// All of `source`, in front of whose plane the eye is; distances up to `epsilon`, m, count as zero.
+    pub(super) fn new(eye: DVec3, source: PlanarPolygon<'_>, epsilon: f64) -> Self {
         let normal = source.plane.normal;
         let origin = source.corners[0];
         let x = (source.corners[1] - origin).try_normalize();
@@ -88,7 +88,7 @@ impl VisibleRegion {
         let whole: Flat = source.corners.iter().map(flat).collect();
         let mut pieces = SmallVec::new();
         pieces.push(whole.clone().into());
-        Self { eye, plane: source.plane, origin, axes, whole, pieces, tolerance }
+        Self { eye, plane: source.plane, origin, axes, whole, pieces, epsilon }
     }
 
     /// The pieces left; they do not overlap.
@@ -110,14 +110,14 @@ impl VisibleRegion {
     /// The shadow that an occluder throws on the source, if any of it is hit.
     pub(super) fn shadow(&self, occluder: &Occluder) -> Option<Shadow> {
         let height = occluder.plane.depth(self.eye);
-        if height.abs() <= 2.0 * self.tolerance {
+        if height.abs() <= 2.0 * self.epsilon {
             return None;
         }
         // What lies behind the source's plane hides nothing.
         let crosses = occluder.corners.iter().any(|&corner| self.plane.depth(corner) < 0.0);
         let clipped = if crosses { self.plane.clip(&occluder.corners) } else { Polygon::new() };
         let front = if crosses { &clipped } else { &occluder.corners };
-        let least = ROUNDING * self.tolerance;
+        let least = ROUNDING * self.epsilon;
         let mut sides = SmallVec::new();
         let (mut on_source, mut spare) = (self.whole.clone(), Flat::new());
         for (k, &from) in front.iter().enumerate() {
@@ -150,7 +150,7 @@ impl VisibleRegion {
 
     /// Takes a shadow out of what is left.
     pub(super) fn subtract(&mut self, shadow: &Shadow) {
-        let least = ROUNDING * self.tolerance;
+        let least = ROUNDING * self.epsilon;
         for k in (0..self.pieces.len()).rev() {
             let SourcePiece { outline, bounds } = &self.pieces[k];
             let is_outside =

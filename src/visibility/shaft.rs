@@ -80,13 +80,13 @@ impl ConvexBody {
 }
 
 impl Shaft {
-    /// Everything between two bodies and in front of both; distances up to `tolerance`, m, count as zero.
-    pub fn between(a: &ConvexBody, b: &ConvexBody, tolerance: f64) -> Self {
+    /// Everything between two bodies and in front of both; distances up to `epsilon`, m, count as zero.
+    pub fn between(a: &ConvexBody, b: &ConvexBody, epsilon: f64) -> Self {
         let corners = || a.corners.iter().chain(&b.corners).copied();
         let mut sides: SmallVec<[HalfSpace; 16]> = SmallVec::new();
         sides.extend(a.front.into_iter().chain(b.front));
-        sides.extend(supports(a, b, tolerance));
-        sides.extend(supports(b, a, tolerance));
+        sides.extend(supports(a, b, epsilon));
+        sides.extend(supports(b, a, epsilon));
         Self {
             sides,
             low: corners().fold(DVec3::INFINITY, DVec3::min),
@@ -113,17 +113,17 @@ impl Shaft {
     }
 
     /// False only if no part of the box is inside.
-    pub(super) fn meets_box(&self, low: DVec3, high: DVec3, tolerance: f64) -> bool {
+    pub(super) fn meets_box(&self, low: DVec3, high: DVec3, epsilon: f64) -> bool {
         let reaches = |side: &HalfSpace| {
             let furthest = DVec3::select(side.normal.cmpge(DVec3::ZERO), high, low);
-            side.depth(furthest) > tolerance
+            side.depth(furthest) > epsilon
         };
         self.low.cmple(high).all() && self.high.cmpge(low).all() && self.sides.iter().all(reaches)
     }
 
     /// False only if no part of the polygon is inside.
-    pub(super) fn meets(&self, polygon: &[DVec3], tolerance: f64) -> bool {
-        let reaches = |side: &HalfSpace| polygon.iter().any(|&p| side.depth(p) > tolerance);
+    pub(super) fn meets(&self, polygon: &[DVec3], epsilon: f64) -> bool {
+        let reaches = |side: &HalfSpace| polygon.iter().any(|&p| side.depth(p) > epsilon);
         self.sides.iter().all(reaches)
     }
 }
@@ -144,7 +144,7 @@ fn cone(eye: DVec3, polygon: &[DVec3], height: f64) -> impl Iterator<Item = Half
 fn supports<'a>(
     a: &'a ConvexBody,
     b: &'a ConvexBody,
-    tolerance: f64,
+    epsilon: f64,
 ) -> impl Iterator<Item = HalfSpace> + 'a {
     let through = move |[from, to]: [u8; 2], corner: DVec3| {
         let (from, to) = (a.corners[from as usize], a.corners[to as usize]);
@@ -153,11 +153,11 @@ fn supports<'a>(
         for &p in a.corners.iter().chain(&b.corners) {
             low = low.min(plane.depth(p));
             high = high.max(plane.depth(p));
-            if low < -tolerance && high > tolerance {
+            if low < -epsilon && high > epsilon {
                 return None;
             }
         }
-        Some(if low >= -tolerance { plane } else { plane.complement() })
+        Some(if low >= -epsilon { plane } else { plane.complement() })
     };
     a.edges
         .iter()

@@ -46,7 +46,7 @@ impl Occluders {
         most: usize,
         ignored: impl Fn(SurfaceId) -> bool,
     ) -> Option<Pieces> {
-        let seen = VisibleRegion::new(view.apex, view.base, self.tolerance);
+        let seen = VisibleRegion::new(view.apex, view.base, self.epsilon);
         let mut rest = ShadowSubtraction::new(seen, most.min(CROWDED));
         if let Blockers::Few(list) = blockers {
             // So few that looking for those in the shaft takes longer than cutting.
@@ -65,7 +65,7 @@ impl Occluders {
     pub fn visible_pieces(&self, eye: DVec3, source: &[DVec3], normal: DVec3) -> Pieces {
         let source = PlanarPolygon::new(source, normal);
         let shaft = Shaft::from_eye(eye, source);
-        let seen = VisibleRegion::new(eye, source, self.tolerance);
+        let seen = VisibleRegion::new(eye, source, self.epsilon);
         let mut rest = ShadowSubtraction::new(seen, usize::MAX);
         self.for_each_in(&self.all(), &shaft, |_, occluder| rest.shade_by(occluder));
         rest.pieces().unwrap_or_default()
@@ -76,11 +76,11 @@ impl Occluders {
         let shaft = Shaft::from_eye(eye, PlanarPolygon::new(source, normal));
         let mut found = false;
         self.for_each(
-            |low, high| shaft.meets_box(low, high, self.tolerance),
+            |low, high| shaft.meets_box(low, high, self.epsilon),
             |_, occluder| {
                 let height = occluder.plane.depth(eye);
-                found |= height.abs() > 2.0 * self.tolerance
-                    && shaft.meets(&occluder.corners, self.tolerance);
+                found |= height.abs() > 2.0 * self.epsilon
+                    && shaft.meets(&occluder.corners, self.epsilon);
                 !found
             },
         );

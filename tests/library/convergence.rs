@@ -4,7 +4,7 @@ use crate::common::{
     Block, Stage, coarse, corners, furnished_room, mesh_of, radiosities, shipped, solve,
 };
 use glam::{DVec2, DVec3};
-use radiosity::direct::Lamps;
+use radiosity::direct::Emitters;
 use radiosity::geometry::polygon::edges;
 use radiosity::mesh::Mesh;
 use radiosity::visibility::Occluders;
@@ -53,11 +53,11 @@ fn places(low: DVec2, high: DVec2, count: u32) -> impl Iterator<Item = DVec2> {
 /// The exact radiosity of a floor of 3 × 3 m and reflectance 0.6 that sees direct light only.
 fn floor_truth(scene: &Scene) -> Vec<(DVec2, f64)> {
     let surfaces = surfaces_of(scene);
-    let lamps = Lamps::new(&surfaces, &Mesh::new(&surfaces, &coarse()));
+    let emitters = Emitters::new(&surfaces, &Mesh::new(&surfaces, &coarse()));
     let occluders = Occluders::new(&surfaces);
     let radiosity = |place: DVec2| {
         let site = DVec3::new(place.x, 0.0, place.y);
-        (place, 0.6 * lamps.shine(&occluders, site, DVec3::Y).irradiance.x)
+        (place, 0.6 * emitters.shine(&occluders, site, DVec3::Y).irradiance.x)
     };
     places(DVec2::splat(-1.499), DVec2::splat(1.499), 1500).map(radiosity).collect()
 }
@@ -146,10 +146,10 @@ fn elements_are_cut_askew_along_discontinuity_lines_only() {
 #[test]
 fn more_rays_to_a_lamp_come_closer_to_its_exact_light() {
     let surfaces = surfaces_of(&shipped("blocker.obj"));
-    let exact = Lamps::new(&surfaces, &Mesh::new(&surfaces, &coarse()));
+    let exact = Emitters::new(&surfaces, &Mesh::new(&surfaces, &coarse()));
     let occluders = Occluders::new(&surfaces);
-    let shine = |lamps: &Lamps, place: DVec2| {
-        lamps.shine(&occluders, DVec3::new(place.x, 0.0, place.y), DVec3::Y).irradiance.x
+    let shine = |emitters: &Emitters, place: DVec2| {
+        emitters.shine(&occluders, DVec3::new(place.x, 0.0, place.y), DVec3::Y).irradiance.x
     };
     let error = |rays: u32| {
         let sampled = exact.clone().seen_by(Some(rays));

@@ -79,12 +79,12 @@ fn work_that_is_left_and_taken_up_again_ends_in_the_same_bytes() {
     let scene = shipped("cornell-box.obj");
     let surfaces = surfaces_of(&scene);
     let patch_size = Length::OfScene(1.0 / 8.0);
-    for solver in [radiosity::settings::Method::Progressive, radiosity::settings::Method::Jacobi] {
-        let settings = Settings { tolerance: 0.1, max_level: 3, patch_size, solver, ..coarse() };
+    for method in [radiosity::settings::Method::Progressive, radiosity::settings::Method::Jacobi] {
+        let settings = Settings { tolerance: 0.1, max_level: 3, patch_size, method, ..coarse() };
         let whole = account(&surfaces, &common::solve(&surfaces, &settings));
         let directory = tempfile::tempdir().unwrap();
         for patience in [0, 9] {
-            let path = directory.path().join(format!("{solver:?}{patience}"));
+            let path = directory.path().join(format!("{method:?}{patience}"));
             let mut runs = 0;
             let end = loop {
                 runs += 1;
@@ -96,9 +96,9 @@ fn work_that_is_left_and_taken_up_again_ends_in_the_same_bytes() {
                 }
             };
             assert!(runs > 2, "{runs} runs");
-            assert!(account(&surfaces, &end) == whole, "{solver:?}, left every {patience}");
+            assert!(account(&surfaces, &end) == whole, "{method:?}, left every {patience}");
             let again = solve_for((&surfaces, &settings), &path, usize::MAX).unwrap();
-            assert!(account(&surfaces, &again) == whole, "{solver:?}, from the end");
+            assert!(account(&surfaces, &again) == whole, "{method:?}, from the end");
         }
     }
 }

@@ -265,7 +265,7 @@ fn a_panel_of_two_faces_back_to_back_is_a_double_sided_panel() {
 fn stages_are_what_a_limit_of_shots_leaves_and_lead_to_the_same_end() {
     let surfaces = surfaces_of(&furnished_room(&[]));
     let go_on = |_: &radiosity::solver::Progress| ControlFlow::Continue(());
-    let plan = radiosity::Plan { stages: &[0, 3, 20, 1_000_000], ..Default::default() };
+    let plan = radiosity::Plan { snapshots: &[0, 3, 20, 1_000_000], ..Default::default() };
     let (end, stages) = radiosity::solve_with(&surfaces, &coarse(), plan, go_on).unwrap();
     let found: Vec<usize> = stages.iter().map(radiosity::Solution::reflected_shots).collect();
     assert_eq!(found, [0, 3, 20], "what is never reached is left out");

@@ -63,7 +63,7 @@ proptest! {
 
     #[test]
     fn convex_pieces_keep_the_area_and_cross_no_line(rings in region(), lines in segments()) {
-        let cuts = Cuts { segments: &lines, size: 1.0, tolerance: 1e-6 };
+        let cuts = Cuts { segments: &lines, size: 1.0, epsilon: 1e-6 };
         let pieces = convex_pieces(&rings, &cuts);
         let whole: f64 = rings.iter().map(|ring| area(ring)).sum();
         let sum: f64 = pieces.iter().map(|piece| area(piece)).sum();
@@ -227,7 +227,7 @@ fn assert_no_straddling(scene: &Scene) {
     for leaf in mesh.leaves() {
         let outline = mesh.outline(leaf);
         for &Contact { segment: line, .. } in &surfaces[mesh.surface_of(leaf)].contacts {
-            let inside = length_inside(&outline, line, 10.0 * surfaces.tolerance);
+            let inside = length_inside(&outline, line, 10.0 * surfaces.epsilon);
             assert!(inside < 1e-4 * surfaces.extent, "{inside} m of {line:?} in {outline:?}");
         }
     }

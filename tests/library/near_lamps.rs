@@ -1,4 +1,4 @@
-//! Lamps next to surfaces: all that they send arrives, and no more, however near they are.
+//! Emitters next to surfaces: all that they send arrives, and no more, however near they are.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;

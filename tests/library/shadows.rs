@@ -3,7 +3,7 @@
 use crate::common::{Block, Stage, assert_sane, coarse, mesh_of, shipped, solve};
 use glam::DVec3;
 use proptest::prelude::*;
-use radiosity::direct::{Lamps, PatchLight};
+use radiosity::direct::{DirectLight, Emitters};
 use radiosity::mesh::{Crossing, ElementId, Mesh, PatchId, Reason, Split, Vertex};
 use radiosity::scene::MaterialId;
 use radiosity::visibility::Occluders;
@@ -31,8 +31,8 @@ fn square(stage: &mut Stage, black: MaterialId) {
 fn lines_bound_umbra_and_penumbra() {
     let surfaces = floor_with(square);
     let mesh = Mesh::new(&surfaces, &Settings { patch_size: Length::Metres(9.0), ..coarse() });
-    let (lamps, occluders) = (Lamps::new(&surfaces, &mesh), Occluders::new(&surfaces));
-    let lines = PatchLight::new(lamps, occluders, &mesh).lines(&mesh, PatchId(0), 0.0);
+    let (emitters, occluders) = (Emitters::new(&surfaces, &mesh), Occluders::new(&surfaces));
+    let lines = DirectLight::new(emitters, occluders, &mesh).lines(&mesh, PatchId(0), 0.0);
     let lines: Vec<[DVec3; 2]> = lines.iter().map(|line| line.ends).collect();
     assert!(lines.iter().flatten().all(|p| p.y.abs() < 1e-12), "lines lie on the floor");
     // At half the height, an edge at x throws its shadow from a lamp at u to 2x - u.
@@ -96,12 +96,12 @@ fn light_is_a_number_in_all_scenes_of_shadows() {
 fn error_of_rays(surfaces: &Surfaces, rays: u32) -> f64 {
     let mesh = Mesh::new(surfaces, &coarse());
     let occluders = Occluders::new(surfaces);
-    let lamps = Lamps::new(surfaces, &mesh);
-    let by_rays = lamps.clone().seen_by(Some(rays));
+    let emitters = Emitters::new(surfaces, &mesh);
+    let by_rays = emitters.clone().seen_by(Some(rays));
     let lit = mesh.patches.iter().filter_map(|patch| {
         let centre = patch.corners.iter().sum::<DVec3>() / patch.corners.len() as f64;
         let [exact, sampled] =
-            [&lamps, &by_rays].map(|lamps| lamps.shine(&occluders, centre, patch.normal));
+            [&emitters, &by_rays].map(|emitters| emitters.shine(&occluders, centre, patch.normal));
         let all = exact.unoccluded.element_sum();
         let error = (exact.irradiance - sampled.irradiance).element_sum().abs();
         (all > 0.0).then(|| error / all)

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::common::{Stage, coarse, solve};
 use glam::DVec3;
 use radiosity::colour::LUMENS_PER_WATT;
-use radiosity::direct::Lamps;
+use radiosity::direct::Emitters;
 use radiosity::mesh::Mesh;
 use radiosity::scene::{Light, Sky, clear_sun};
 use radiosity::visibility::{Occluders, SurfacePoint};
@@ -16,8 +16,8 @@ const SKIES: [Sky; 2] = [Sky::Uniform, Sky::Overcast];
 /// Illuminance straight from the lights of a scene, lx, with and without what hides them.
 fn lux(scene: &Scene, place: DVec3, normal: DVec3) -> [f64; 2] {
     let surfaces = surfaces_of(scene);
-    let lamps = Lamps::new(&surfaces, &Mesh::new(&surfaces, &coarse()));
-    let direct = lamps.shine(&Occluders::new(&surfaces), place, normal);
+    let emitters = Emitters::new(&surfaces, &Mesh::new(&surfaces, &coarse()));
+    let direct = emitters.shine(&Occluders::new(&surfaces), place, normal);
     [direct.irradiance.x, direct.unoccluded.x].map(|watts| watts * LUMENS_PER_WATT)
 }
 
@@ -129,8 +129,8 @@ fn a_sky_seen_by_rays_is_the_same_on_the_mean() {
     for sky in SKIES {
         let surfaces = surfaces_of(&room_with_window(sky, [1.0, 0.9], [3.2, 2.4]));
         let occluders = Occluders::new(&surfaces);
-        let lamps = Lamps::new(&surfaces, &Mesh::new(&surfaces, &coarse()));
-        let exact = lamps.shine(&occluders, point.position, point.normal).irradiance.x;
+        let emitters = Emitters::new(&surfaces, &Mesh::new(&surfaces, &coarse()));
+        let exact = emitters.shine(&occluders, point.position, point.normal).irradiance.x;
         let mut seed = 1_u64;
         let mut random = || {
             seed = seed
@@ -140,11 +140,14 @@ fn a_sky_seen_by_rays_is_the_same_on_the_mean() {
         };
         let count = 20_000;
         let sum: f64 =
-            (0..count).map(|_| lamps.sample_unbiased(&occluders, point, &mut random).x).sum();
+            (0..count).map(|_| emitters.sample_unbiased(&occluders, point, &mut random).x).sum();
         let mean = sum / f64::from(count);
         assert!((mean / exact - 1.0).abs() < 0.05, "{sky:?}: {mean} by single rays, {exact}");
-        let sampled =
-            lamps.seen_by(Some(1024)).shine(&occluders, point.position, point.normal).irradiance.x;
+        let sampled = emitters
+            .seen_by(Some(1024))
+            .shine(&occluders, point.position, point.normal)
+            .irradiance
+            .x;
         assert!((sampled / exact - 1.0).abs() < 0.05, "{sky:?}: {sampled} by rays, {exact}");
     }
 }

@@ -10,7 +10,7 @@ use radiosity::{Settings, Solution, Surfaces, reconstruct, solve, surfaces_of};
 
 /// When the work is ended.
 const STAGES: [(Phase, f64); 6] = [
-    (Phase::Lamps, 0.0),
+    (Phase::Emitters, 0.0),
     (Phase::Direct, 0.0),
     (Phase::Direct, 0.5),
     (Phase::Shooting, 0.0),

@@ -152,8 +152,8 @@ impl MethodOptions {
             patch_size: or_preset(self.patch_size, preset.patch_size),
             discontinuity_lines: !self.no_discontinuity_lines,
             shadow_rays: self.shadow_rays,
-            stop: self.stop.unwrap_or(preset.stop),
-            solver: self.solver.into(),
+            unshot_limit: self.stop.unwrap_or(preset.unshot_limit),
+            method: self.solver.into(),
             omega: self.omega.unwrap_or(preset.omega),
             hemicube_resolution: self.hemicube_resolution.unwrap_or(preset.hemicube_resolution),
             ..preset

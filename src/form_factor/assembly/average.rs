@@ -26,7 +26,7 @@ pub(super) fn exchanges_of(
         let back = transposed.row(i).filter(above).map(|(j, f)| (j as u32, f * patches[j].area));
         let exact = |(j, sum): (u32, f64)| {
             let other = patches[j as usize].polygon();
-            if is_level(this, other, occluders.tolerance()) {
+            if is_level(this, other, occluders.epsilon()) {
                 return (j, 0.0);
             }
             let clear = occluders.is_clear(this, other);

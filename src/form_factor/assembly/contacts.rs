@@ -46,7 +46,7 @@ struct TouchingPatch {
 
 impl Contacts {
     pub(super) fn find(patches: &[Patch], occluders: &Occluders) -> Self {
-        let tolerance = occluders.tolerance();
+        let tolerance = occluders.epsilon();
         let boxes = boxes(patches, tolerance);
         let tree = hierarchy(&boxes);
         let touching = |i: usize| -> Vec<TouchingPatch> {

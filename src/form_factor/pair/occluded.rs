@@ -30,7 +30,7 @@ pub fn visible_exchange(
     b: PlanarPolygon<'_>,
     tolerance: f64,
 ) -> f64 {
-    if is_level(a, b, occluders.tolerance()) {
+    if is_level(a, b, occluders.epsilon()) {
         return 0.0;
     }
     let tolerance = tolerance * area(a).min(area(b));

@@ -25,7 +25,7 @@ pub(super) struct PairView<'a> {
 impl PairView<'_> {
     /// Form factors from a place of a quadrilateral times its area per area of the unit square there, m².
     pub(super) fn look(&self, quadrilateral: &[DVec3; 4], place: [f64; 2]) -> VisibleOfAll {
-        let [s, t] = inside(quadrilateral, place, MARGIN * self.between.tolerance());
+        let [s, t] = inside(quadrilateral, place, MARGIN * self.between.epsilon());
         let (eye, area) = at(quadrilateral, s, t);
         let factor =
             |polygon: &[DVec3]| point_to_polygon_above(eye, self.from.plane.normal, polygon);

@@ -46,15 +46,15 @@ impl Shooting<'_, '_> {
             return [Rgb::ZERO; 2];
         }
         let reflectances = self.reflectances_of_surfaces();
-        let (mut group, mut passed) = (0, held[0]);
+        let (mut cluster, mut passed) = (0, held[0]);
         let [mut arriving, mut reflected] = [Rgb::ZERO; 2];
         for ray in 0..RAYS {
             let wanted = all * (ray as f64 + 0.5) / RAYS as f64;
-            while passed < wanted && group + 1 < held.len() {
-                group += 1;
-                passed += held[group];
+            while passed < wanted && cluster + 1 < held.len() {
+                cluster += 1;
+                passed += held[cluster];
             }
-            let members = self.context.groups.members(group);
+            let members = self.context.clusters.members(cluster);
             if let Some(surface) = self.met(&self.mesh[members[ray % members.len()]], ray) {
                 arriving += Rgb::ONE / RAYS as f64;
                 reflected += reflectances[surface] / RAYS as f64;

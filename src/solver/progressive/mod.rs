@@ -30,7 +30,7 @@ impl Shooting<'_, '_> {
     /// Lets patches shoot until the unshot power is small, the shots are used up, or the observer has
     /// seen enough.
     pub(super) fn run(&mut self, settings: &Settings) -> Result<(Stop, Vec<RelaxationStep>)> {
-        let relaxation = Relaxation::new(settings.solver, settings.omega)?;
+        let relaxation = Relaxation::new(settings.method, settings.omega)?;
         let State { shots: emitters, energy, .. } = self.state;
         let start = energy.unshot_share().max(f64::MIN_POSITIVE);
         let mut convergence = Convergence::new(relaxation, self);
@@ -43,13 +43,13 @@ impl Shooting<'_, '_> {
         let stop = known.unwrap_or_else(|| {
             relaxation.run(self, &mut convergence, |shooting, convergence| {
                 let step = convergence.step();
-                if step.unshot <= settings.stop {
+                if step.unshot <= settings.unshot_limit {
                     return Some(Stop::Converged);
                 }
                 if settings.max_shots.is_some_and(|most| emitters + step.shots >= most) {
                     return Some(Stop::ShotLimit);
                 }
-                let done = (step.unshot / start).ln() / (settings.stop / start).ln();
+                let done = (step.unshot / start).ln() / (settings.unshot_limit / start).ln();
                 let _ = shooting.observer.tell(Phase::Shooting, done);
                 if !shooting.observer.is_over() && shooting.observer.checkpoint.is_due() {
                     shooting.keep(convergence, None);
@@ -61,7 +61,7 @@ impl Shooting<'_, '_> {
             self.keep(&convergence, None);
         }
         self.state.energy.unshot = self.unshot_power();
-        self.spread_over_groups();
+        self.spread_over_clusters();
         if stop == Stop::Diverged {
             return Err(diverged(settings));
         }
@@ -89,10 +89,10 @@ impl Shooting<'_, '_> {
         (convergence, stop)
     }
 
-    /// Gives all patches of a group what they have received together.
-    fn spread_over_groups(&mut self) {
-        for group in 0..self.context.groups.len() {
-            let [first, others @ ..] = self.context.groups.members(group) else { continue };
+    /// Gives all patches of a cluster what they have received together.
+    fn spread_over_clusters(&mut self) {
+        for cluster in 0..self.context.clusters.len() {
+            let [first, others @ ..] = self.context.clusters.members(cluster) else { continue };
             let light = self.state.received[self.mesh[*first].root.index()];
             for &other in others {
                 self.state.received[self.mesh[other].root.index()] = light;
@@ -133,9 +133,9 @@ impl RelaxationSystem for Shooting<'_, '_> {
 
     fn relax(&mut self, shooter: usize, omega: f64) -> Rgb {
         let released = self.release(shooter, omega);
-        match self.context.groups.members(shooter) {
+        match self.context.clusters.members(shooter) {
             &[patch] => self.release_elements(patch, omega),
-            // Groups of facets are taken as one.
+            // Clusters of facets are taken as one.
             facets => {
                 let roots = facets.iter().map(|&facet| self.mesh[facet].root.index());
                 roots.for_each(|root| self.released[root] = released);
@@ -147,15 +147,15 @@ impl RelaxationSystem for Shooting<'_, '_> {
         let scale = conserve(arriving, &row, &self.released);
         for link in &row.links {
             let power = scale * self.released[link.source.index()] * link.exchange;
-            let group = self.context.groups.of(self.mesh[link.receiver].patch);
-            let shared = self.context.groups.members(group).len() > 1;
-            let area = if shared { self.areas[group] } else { self.mesh[link.receiver].area };
-            // A group's light is kept with the first of its patches, and spread at last.
+            let cluster = self.context.clusters.of(self.mesh[link.receiver].patch);
+            let shared = self.context.clusters.members(cluster).len() > 1;
+            let area = if shared { self.areas[cluster] } else { self.mesh[link.receiver].area };
+            // A cluster's light is kept with the first of its patches, and spread at last.
             self.state.received[link.receiver.index()] += power / area;
             self.state.unshot.irradiance[link.receiver.index()] += power / area;
-            self.state.unshot.radiosity[group] +=
-                self.reflectances[group] * power / self.areas[group];
-            self.state.energy.absorbed += (Rgb::ONE - self.reflectances[group]) * power;
+            self.state.unshot.radiosity[cluster] +=
+                self.reflectances[cluster] * power / self.areas[cluster];
+            self.state.energy.absorbed += (Rgb::ONE - self.reflectances[cluster]) * power;
         }
         self.state.energy.escaped += power * row.escaped;
         self.state.energy.on_backs += power * row.on_backs;
@@ -167,8 +167,8 @@ impl RelaxationSystem for Shooting<'_, '_> {
 
 /// Advice for a relaxation that will not end.
 fn diverged(settings: &Settings) -> Error {
-    let (solver, omega) = (settings.solver.name(), settings.omega);
-    let message = format!("{solver} with {omega} lets the light grow without end; use 1 or less");
+    let (method, omega) = (settings.method.name(), settings.omega);
+    let message = format!("{method} with {omega} lets the light grow without end; use 1 or less");
     Error::Setting { name: "omega", message }
 }
 

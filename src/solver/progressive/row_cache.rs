@@ -2,7 +2,7 @@
 
 use crate::solver::links::Row;
 
-/// The rows that are there, by group.
+/// The rows that are there, by cluster.
 pub(super) struct RowCache {
     list: Vec<Option<Row>>,
     /// How many links they have.
@@ -12,32 +12,32 @@ pub(super) struct RowCache {
 }
 
 impl RowCache {
-    /// None yet, for so many groups; of all that follow, at most about so many links are kept.
-    pub(super) fn new(groups: usize, most: usize) -> Self {
-        Self { list: vec![None; groups], links: 0, most }
+    /// None yet, for so many clusters; of all that follow, at most about so many links are kept.
+    pub(super) fn new(clusters: usize, most: usize) -> Self {
+        Self { list: vec![None; clusters], links: 0, most }
     }
 
-    pub(super) fn has(&self, group: usize) -> bool {
-        self.list[group].is_some()
+    pub(super) fn has(&self, cluster: usize) -> bool {
+        self.list[cluster].is_some()
     }
 
-    /// The groups whose rows are there.
+    /// The clusters whose rows are there.
     pub(super) fn ready(&self) -> Vec<usize> {
-        (0..self.list.len()).filter(|&group| self.has(group)).collect()
+        (0..self.list.len()).filter(|&cluster| self.has(cluster)).collect()
     }
 
     /// Takes a row out, to be put back.
-    pub(super) fn take(&mut self, group: usize) -> Row {
-        self.list[group].take().unwrap_or_default()
+    pub(super) fn take(&mut self, cluster: usize) -> Row {
+        self.list[cluster].take().unwrap_or_default()
     }
 
-    pub(super) fn put_back(&mut self, group: usize, row: Row) {
-        self.list[group] = Some(row);
+    pub(super) fn put_back(&mut self, cluster: usize, row: Row) {
+        self.list[cluster] = Some(row);
     }
 
-    pub(super) fn keep(&mut self, group: usize, row: Row) {
+    pub(super) fn keep(&mut self, cluster: usize, row: Row) {
         self.links += row.links.len();
-        self.list[group] = Some(row);
+        self.list[cluster] = Some(row);
     }
 
     /// Drops all if they have become too many.

@@ -21,7 +21,7 @@ impl Shooting<'_, '_> {
         let surfaces = context.surfaces;
         let is_back = |surface: SurfaceId| !surfaces[surface].two_sided;
         let Sent { emitted, escaped, on_backs } =
-            context.light.lamps().sent_by_points(context.occluders, is_back);
+            context.light.emitters().sent_by_points(context.occluders, is_back);
         self.state.energy.emitted += emitted;
         self.state.energy.escaped += escaped;
         self.state.energy.on_backs += on_backs;
@@ -44,10 +44,10 @@ impl Shooting<'_, '_> {
     ///
     /// Once there has been enough, what they send past is not known of all of them.
     pub(super) fn book_emitters(&mut self) {
-        let (mesh, optics, groups) = (self.mesh, self.context.optics, self.context.groups);
+        let (mesh, optics, clusters) = (self.mesh, self.context.optics, self.context.clusters);
         let shines = |patch: &&PatchId| optics.shines(**patch);
-        let emitters: Vec<usize> = (0..groups.len())
-            .filter(|&group| groups.members(group).iter().any(|patch| shines(&patch)))
+        let emitters: Vec<usize> = (0..clusters.len())
+            .filter(|&cluster| clusters.members(cluster).iter().any(|patch| shines(&patch)))
             .collect();
         let past = |row: Row| (row.escaped, row.on_backs, row.factors);
         let rows = self.rows_of(&emitters, past);
@@ -55,7 +55,7 @@ impl Shooting<'_, '_> {
         let rows = rows.into_iter().chain(std::iter::repeat((0.0, 0.0, 0)));
         for (&emitter, (escaped, on_backs, factors)) in emitters.iter().zip(rows) {
             self.state.factors += factors;
-            for &patch in groups.members(emitter).iter().filter(shines) {
+            for &patch in clusters.members(emitter).iter().filter(shines) {
                 let power = optics.exitance[patch.index()] * mesh[patch].area;
                 self.state.energy.emitted += power;
                 self.state.energy.escaped += power * escaped;
@@ -65,7 +65,7 @@ impl Shooting<'_, '_> {
         }
     }
 
-    /// Makes the rows that are missing of some groups; none if there has been enough before all are made.
+    /// Makes the rows that are missing of some clusters; none if there has been enough before all are made.
     pub(super) fn make_rows(&mut self, shooters: &[usize]) {
         self.rows.make_room();
         let missing: Vec<usize> =
@@ -84,18 +84,18 @@ impl Shooting<'_, '_> {
         }
     }
 
-    /// What `take` keeps of the rows of some groups, in their order; of the first only, if there has been enough.
+    /// What `take` keeps of the rows of some clusters, in their order; of the first only, if there has been enough.
     fn rows_of<R: Send>(
         &mut self,
-        groups: &[usize],
+        shooters: &[usize],
         take: impl Fn(Row) -> R + Sync + Send,
     ) -> Vec<R> {
         let Self { mesh, ref glares, .. } = *self;
-        let Context { groups: clusters, occluders, .. } = self.context;
-        let transport = Transport { mesh, groups: clusters, glares };
+        let Context { clusters, occluders, .. } = self.context;
+        let transport = Transport { mesh, clusters, glares };
         let (delta, targets) = (&self.delta, &self.targets);
         self.observer.map(
-            groups,
+            shooters,
             |_| Hemicube::new(delta, targets, occluders),
             |hemicube, &shooter| take(transport.row(hemicube, shooter)),
         )

@@ -31,13 +31,13 @@ pub(in crate::solver) struct Shooting<'a, 'o> {
     pub(super) rows: RowCache,
     /// By element: whether its direct light glares.
     pub(super) glares: Vec<bool>,
-    /// By group: its area, m².
+    /// By cluster: its area, m².
     pub(super) areas: Vec<f64>,
-    /// By group: its mean reflectance.
+    /// By cluster: its mean reflectance.
     pub(super) reflectances: Vec<Rgb>,
     /// By patch: its elements, parents before their children.
     pub(super) trees: Vec<Vec<ElementId>>,
-    /// By element: the radiosity that it releases, while its group does, W/m².
+    /// By element: the radiosity that it releases, while its cluster does, W/m².
     pub(super) released: Vec<Rgb>,
     /// What comes straight from emitters; reflected light is not in it yet.
     pub(in crate::solver) light: ElementLight,
@@ -56,28 +56,28 @@ impl<'a, 'o> Shooting<'a, 'o> {
         observer: &'a mut Observer<'o>,
     ) -> Self {
         let _ = observer.tell(Phase::Shooting, 0.0);
-        let Context { optics, groups, .. } = context;
+        let Context { optics, clusters, .. } = context;
         let light = ElementLight::direct(mesh, vertices);
-        let members = |group: usize| groups.members(group).iter().copied();
-        let areas: Vec<f64> = (0..groups.len())
-            .map(|group| members(group).map(|patch| mesh[patch].area).sum())
+        let members = |cluster: usize| clusters.members(cluster).iter().copied();
+        let areas: Vec<f64> = (0..clusters.len())
+            .map(|cluster| members(cluster).map(|patch| mesh[patch].area).sum())
             .collect();
-        let unshot = |group: usize| {
+        let unshot = |cluster: usize| {
             let mean = |patch: PatchId| {
                 let direct = light.direct[mesh[patch].root.index()];
-                optics.reflectance[patch.index()] * direct * share(mesh[patch].area, areas[group])
+                optics.reflectance[patch.index()] * direct * share(mesh[patch].area, areas[cluster])
             };
-            members(group).map(mean).sum()
+            members(cluster).map(mean).sum()
         };
-        let reflectance = |group: usize| {
+        let reflectance = |cluster: usize| {
             let part = |patch: PatchId| {
-                optics.reflectance[patch.index()] * share(mesh[patch].area, areas[group])
+                optics.reflectance[patch.index()] * share(mesh[patch].area, areas[cluster])
             };
-            members(group).map(part).sum()
+            members(cluster).map(part).sum()
         };
-        let reflectances = (0..groups.len()).map(reflectance).collect();
+        let reflectances = (0..clusters.len()).map(reflectance).collect();
         let unshot = Unshot {
-            radiosity: (0..groups.len()).map(unshot).collect(),
+            radiosity: (0..clusters.len()).map(unshot).collect(),
             irradiance: leaves_only(mesh, &light.direct),
         };
         let most = settings.hemicube_resolution as usize;
@@ -88,7 +88,7 @@ impl<'a, 'o> Shooting<'a, 'o> {
             mesh,
             delta: DeltaFactors::new(resolution),
             targets: HemicubeScene::new(&mesh.patches),
-            rows: RowCache::new(groups.len(), most_links(settings)),
+            rows: RowCache::new(clusters.len(), most_links(settings)),
             glares: glaring(
                 mesh,
                 &Sources::of_direct_light(mesh, optics, vertices, &light),
@@ -112,12 +112,12 @@ impl<'a, 'o> Shooting<'a, 'o> {
         shooting
     }
 
-    /// What a group releases, W/m²; it holds that much less afterwards.
-    pub(super) fn release(&mut self, group: usize, omega: f64) -> Rgb {
+    /// What a cluster releases, W/m²; it holds that much less afterwards.
+    pub(super) fn release(&mut self, cluster: usize, omega: f64) -> Rgb {
         let State { unshot, snapshot, .. } = &mut self.state;
-        let held = snapshot.as_ref().unwrap_or(unshot).radiosity[group];
+        let held = snapshot.as_ref().unwrap_or(unshot).radiosity[cluster];
         let released = omega * held;
-        unshot.radiosity[group] -= released;
+        unshot.radiosity[cluster] -= released;
         released
     }
 

@@ -12,7 +12,7 @@ use crate::solver::stop::Stop;
 #[derive(Default, Serialize, Deserialize)]
 pub(in crate::solver) struct State {
     pub(super) unshot: Unshot,
-    /// What groups release, if that is not what they hold: what they held when the sweep began.
+    /// What clusters release, if that is not what they hold: what they held when the sweep began.
     pub(super) snapshot: Option<Unshot>,
     /// By element: irradiance by reflected light received at that level, W/m².
     pub(in crate::solver) received: Vec<Rgb>,
@@ -27,13 +27,14 @@ pub(in crate::solver) struct State {
 /// Light received and not yet shot.
 #[derive(Clone, Default, Serialize, Deserialize)]
 pub(super) struct Unshot {
-    /// By group: mean radiosity, W/m².
+    /// By cluster: mean radiosity, W/m².
     pub(super) radiosity: Vec<Rgb>,
     /// By element: irradiance received at that level, W/m².
     pub(super) irradiance: Vec<Rgb>,
 }
 
-/// What is kept of an exchange: how it has converged, why it has ended, once it has, its state, and whose rows are there.
+/// What is kept of an exchange: how it has converged, why it has ended, once it has, its state, and whose rows are
+/// there.
 pub(super) type ShootingRecord = (Convergence, Option<Stop>, State, Vec<usize>);
 
 /// What was kept last of an exchange; none after its end was.

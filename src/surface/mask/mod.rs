@@ -12,7 +12,7 @@ use i_overlay::float::single::SingleFloatOverlay;
 use rayon::prelude::*;
 
 use super::merge::PlanarRegion;
-use super::model::TOLERANCE;
+use super::model::EPSILON;
 use super::partial_overlap::{plain, rings_of};
 use super::tint::Widest;
 use crate::geometry::polygon::{Ring, area, bounds};
@@ -33,7 +33,7 @@ const MOST_CORNERS: usize = 40_000;
 /// Least and most corners of the outlines on a face, whatever their number.
 const CORNERS_OF_ONE: [usize; 2] = [6, 4000];
 
-/// Faces with less area than this are nothing, in tolerances times their length.
+/// Faces with less area than this are nothing, in epsilons times their length.
 const NARROW: f64 = 10.0;
 
 /// A region whose picture has holes.
@@ -50,8 +50,8 @@ struct CutOut<'a> {
     area: f64,
 }
 
-/// What outlines depend on: the picture and the bits of the cutoff, the bits of the detail and the most corners, and where
-/// the picture is looked at.
+/// What outlines depend on: the picture and the bits of the cutoff, the bits of the detail and the most corners, and
+/// where the picture is looked at.
 type Key = ([u64; 2], (u64, usize), Lattice);
 
 /// Regions of cut-outs reduced to what is there of them; what was done is told in `notes`.
@@ -81,9 +81,9 @@ pub(super) fn cut(
         keys.iter().zip(&cut_outs).filter_map(|(key, one)| Some(((*key)?, one))).collect();
     let outlined = |(key, one): (Key, &CutOut)| (key, one.outline(key));
     let outlines: BTreeMap<Key, Opaque> = by_key.into_par_iter().map(outlined).collect();
-    let tolerance = TOLERANCE * scene.extent();
+    let epsilon = EPSILON * scene.extent();
     let left = |(one, key): (&CutOut, &Option<Key>)| {
-        one.left(&regions[one.region], key.map(|key| &outlines[&key]), tolerance)
+        one.left(&regions[one.region], key.map(|key| &outlines[&key]), epsilon)
     };
     let left: Vec<Left> = cut_outs.par_iter().zip(&keys).map(left).collect();
     tell(&cut_outs, &regions, &left, notes);
@@ -150,13 +150,13 @@ impl<'a> CutOut<'a> {
     }
 
     /// What is left of its region.
-    fn left(&self, region: &PlanarRegion, opaque: Option<&Opaque>, tolerance: f64) -> Left {
+    fn left(&self, region: &PlanarRegion, opaque: Option<&Opaque>, epsilon: f64) -> Left {
         match (opaque, self.texels) {
             (Some(Opaque::Whole), _) => Left::All,
             (Some(Opaque::Within(rings)), Some(texels)) => {
                 let pieces = common(&region.rings, rings, texels);
                 let pieces: Vec<Vec<Ring>> =
-                    pieces.into_iter().filter(|piece| is_wide(piece, tolerance)).collect();
+                    pieces.into_iter().filter(|piece| is_wide(piece, epsilon)).collect();
                 if pieces.is_empty() { Left::Nothing } else { Left::Pieces(pieces) }
             }
             // Without a place for the picture, what most of it is.
@@ -197,9 +197,9 @@ fn common(own: &[Ring], opaque: &[Ring], texels: DAffine2) -> Vec<Vec<Ring>> {
 }
 
 /// Whether a piece is wide enough to be one.
-fn is_wide(piece: &[Ring], tolerance: f64) -> bool {
+fn is_wide(piece: &[Ring], epsilon: f64) -> bool {
     let [low, high] = bounds(piece.iter().flatten());
-    size(piece) > NARROW * tolerance * low.distance(high)
+    size(piece) > NARROW * epsilon * low.distance(high)
 }
 
 fn size(piece: &[Ring]) -> f64 {

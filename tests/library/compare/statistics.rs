@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use proptest::prelude::*;
-use radiosity::direct::Lamps;
+use radiosity::direct::Emitters;
 use radiosity::mesh::{ElementId, Mesh};
 use radiosity::surface::SurfaceId;
 use radiosity::visibility::{Met, Occluders, SurfacePoint};
@@ -105,7 +105,7 @@ proptest! {
     fn single_rays_to_lamps_are_right_on_the_mean(x in -1.0..1.0_f64, z in -1.0..1.0_f64) {
         let surfaces = surfaces_of(&shipped("blocker.obj"));
         let mesh = Mesh::new(&surfaces, &Settings::draft());
-        let (lamps, occluders) = (Lamps::new(&surfaces, &mesh), Occluders::new(&surfaces));
+        let (lamps, occluders) = (Emitters::new(&surfaces, &mesh), Occluders::new(&surfaces));
         let place = DVec3::new(x, 0.0, z);
         let exact = lamps.shine(&occluders, place, DVec3::Y);
         // Two sequences that fill the square evenly: the mean is better than chance.

@@ -67,7 +67,7 @@ fn room_with_slivers(width: f64) -> Scene {
 fn slivers_under_boxes_see_the_box_alone_and_those_beside_screens_one_side() {
     for width in [1e-3, 1e-4] {
         let scene = room_with_slivers(width);
-        let tolerance = surfaces_of(&scene).tolerance;
+        let epsilon = surfaces_of(&scene).epsilon;
         let Assembled { factors, on_backs, .. } = matrix(&scene, 1.0, FormFactorMethod::Contour);
         let is_sliver = |area: f64| area < 2.0 * width * width;
         assert_eq!(factors.areas().iter().filter(|&&area| is_sliver(area)).count(), 3);
@@ -76,7 +76,7 @@ fn slivers_under_boxes_see_the_box_alone_and_those_beside_screens_one_side() {
             let is_covered = factors.row(i).any(|(_, factor)| factor > 0.999);
             let beside = is_sliver(factors.areas()[i]) && !is_covered;
             // Half a sliver's sight is the screen's, and all within the tolerance is in its plane.
-            let allowed = if beside { tolerance / width } else { 4e-4 };
+            let allowed = if beside { epsilon / width } else { 4e-4 };
             assert!(miss < allowed, "row {i} of a sliver {width} m wide: {sum}");
         }
     }

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use crate::common::{Block, Stage, coarse, furnished_room, solve};
 use glam::DVec3;
 use proptest::prelude::*;
-use radiosity::direct::Lamps;
+use radiosity::direct::Emitters;
 use radiosity::form_factor::contour::point_to_polygon;
 use radiosity::form_factor::hemicube::{DeltaFactors, Hemicube, HemicubeScene, VisiblePatch};
 use radiosity::geometry::HalfSpace;
@@ -197,7 +197,7 @@ fn direct_light_under_a_blocker_is_the_integral_over_the_lamp() {
     stage.lamp(black, DVec3::new(-0.3, 1.0, -0.2), DVec3::new(0.4, 1.0, 0.3));
     let surfaces = surfaces_of(&stage.scene);
     let mesh = Mesh::new(&surfaces, &coarse());
-    let (lamps, occluders) = (Lamps::new(&surfaces, &mesh), Occluders::new(&surfaces));
+    let (lamps, occluders) = (Emitters::new(&surfaces, &mesh), Occluders::new(&surfaces));
     let mut shadowed = 0;
     for k in 0..50 {
         let share = |step: f64| 2.0 * (f64::from(k) * step).fract() - 1.0;

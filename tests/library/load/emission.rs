@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use image::{Rgb, RgbImage};
-use radiosity::direct::Lamps;
+use radiosity::direct::Emitters;
 use radiosity::form_factor::contour::point_to_polygon;
 use radiosity::light::Optics;
 use radiosity::mesh::Mesh;
@@ -47,7 +47,7 @@ fn an_emission_picture_counts_with_a_colour_picture_and_without() {
         let exitance = Optics::new(&surfaces, &mesh).exitance;
         let power: f64 = mesh.patches.iter().zip(exitance).map(|(p, e)| e.x * p.area).sum();
         assert!((power - 20.0 * PI).abs() < 1e-3 * power, "{power} W with {material}, {faces}");
-        let (lamps, occluders) = (Lamps::new(&surfaces, &mesh), Occluders::new(&surfaces));
+        let (lamps, occluders) = (Emitters::new(&surfaces, &mesh), Occluders::new(&surfaces));
         for x in [-0.8, -0.3, 0.3, 0.8] {
             let place = DVec3::new(x, 0.0, 0.2);
             let found = lamps.shine(&occluders, place, DVec3::Y).irradiance.x;

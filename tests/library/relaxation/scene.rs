@@ -24,7 +24,7 @@ fn solved(scene: &Scene, settings: &Settings) -> Solution {
 fn all_solvers_leave_the_same_light() {
     let scene = furnished();
     // A uniform mesh is the same whatever the light, so that elements can be compared.
-    let base = Settings { stop: 1e-5, uniform: Some(0.8), ..coarse() };
+    let base = Settings { unshot_limit: 1e-5, uniform: Some(0.8), ..coarse() };
     let truth = solved(&scene, &base);
     let mean = truth.light.indirect.iter().sum::<Rgb>() / truth.light.indirect.len() as f64;
     let emitted = truth.energy.emitted.element_sum();
@@ -35,7 +35,7 @@ fn all_solvers_leave_the_same_light() {
         (Method::Progressive, 0.7),
         (Method::Progressive, 1.2),
     ]) {
-        let solution = solved(&scene, &Settings { solver: method, omega, ..base.clone() });
+        let solution = solved(&scene, &Settings { method, omega, ..base.clone() });
         assert_eq!(solution.stop, Stop::Converged, "{method:?} {omega}");
         let lost = solution.energy.imbalance() - truth.energy.imbalance();
         assert!(lost.abs() < 1e-4, "{method:?} {omega}: {lost} of the light is lost");
@@ -54,13 +54,13 @@ fn all_solvers_leave_the_same_light() {
 fn histories_tell_of_every_shot() {
     let scene = furnished();
     for method in METHODS {
-        let settings = Settings { solver: method, ..coarse() };
+        let settings = Settings { method, ..coarse() };
         let solution = solved(&scene, &settings);
         let steps = &solution.history;
         assert!(steps.iter().enumerate().all(|(number, step)| step.shots == number));
         assert!(steps.windows(2).all(|pair| pair[1].unshot <= pair[0].unshot + 1e-12));
         let last = steps[steps.len() - 1];
-        assert!(last.unshot <= settings.stop && steps.len() > 10, "{method:?}: {last:?}");
+        assert!(last.unshot <= settings.unshot_limit && steps.len() > 10, "{method:?}: {last:?}");
     }
 }
 
@@ -68,7 +68,7 @@ fn histories_tell_of_every_shot() {
 fn the_shot_limit_holds_within_a_sweep() {
     let scene = furnished();
     for method in METHODS {
-        let settings = Settings { solver: method, max_shots: Some(20), ..coarse() };
+        let settings = Settings { method, max_shots: Some(20), ..coarse() };
         let solution = solved(&scene, &settings);
         assert_eq!((solution.stop, solution.shots), (Stop::ShotLimit, 20), "{method:?}");
         assert!(solution.energy.imbalance().abs() < 5e-3, "{method:?}");
@@ -77,7 +77,7 @@ fn the_shot_limit_holds_within_a_sweep() {
 
 #[test]
 fn over_relaxation_that_never_settles_is_refused() {
-    let settings = Settings { solver: Method::Jacobi, omega: 1.95, ..coarse() };
+    let settings = Settings { method: Method::Jacobi, omega: 1.95, ..coarse() };
     let refused =
         radiosity::solve(&surfaces_of(&furnished()), &settings, |_| ControlFlow::Continue(()));
     let message = refused.map(|_| ()).unwrap_err().to_string();
@@ -99,7 +99,7 @@ fn surfaces_that_reflect_everything_are_refused() {
 fn a_break_in_the_middle_of_a_sweep_loses_no_light() {
     let surfaces = surfaces_of(&furnished());
     for method in METHODS {
-        let settings = Settings { solver: method, ..coarse() };
+        let settings = Settings { method, ..coarse() };
         let solution = radiosity::solve(&surfaces, &settings, |progress| {
             let is_enough = progress.phase == Phase::Shooting && progress.done > 0.3;
             if is_enough {

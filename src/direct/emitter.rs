@@ -1,4 +1,4 @@
-//! The kinds of lamps, and how regions and places see them.
+//! The kinds of emitters, and how regions and places see them.
 
 use std::f64::consts::PI;
 
@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::globe::Globe;
 use super::profile::RadianceProfile;
-use super::view::{FAR, LampView};
+use super::view::{EmitterView, FAR};
 use crate::colour::Rgb;
 use crate::geometry::area_vector;
 use crate::geometry::{HalfSpace, PlanarPolygon, Polygon};
@@ -16,8 +16,8 @@ use crate::visibility::{ConvexBody, SurfacePoint};
 
 /// An emitter.
 #[derive(Clone, Debug)]
-pub(super) enum Lamp {
-    Area(AreaLamp),
+pub(super) enum Emitter {
+    Area(AreaEmitter),
     Globe(Globe),
     /// Without a surface.
     Point(Light),
@@ -25,7 +25,7 @@ pub(super) enum Lamp {
 
 /// A convex polygon that emits from its front.
 #[derive(Clone, Debug)]
-pub(super) struct AreaLamp {
+pub(super) struct AreaEmitter {
     pub(super) corners: Polygon,
     pub(super) front: HalfSpace,
     /// W/m²; of skies, at the zenith.
@@ -33,13 +33,13 @@ pub(super) struct AreaLamp {
     pub(super) profile: RadianceProfile,
 }
 
-impl Lamp {
+impl Emitter {
     /// Where it is, if it is somewhere.
     pub(super) fn body(&self) -> Option<ConvexBody> {
         match self {
-            Self::Area(lamp) => Some(ConvexBody::polygon(PlanarPolygon {
-                corners: &lamp.corners,
-                plane: lamp.front,
+            Self::Area(emitter) => Some(ConvexBody::polygon(PlanarPolygon {
+                corners: &emitter.corners,
+                plane: emitter.front,
             })),
             Self::Globe(globe) => Some(ConvexBody::cuboid(globe.low, globe.high)),
             Self::Point(light) => light.position().map(ConvexBody::point),
@@ -49,9 +49,9 @@ impl Lamp {
     /// The part of it that some place on a receiver may see, if it is somewhere.
     pub(super) fn body_above(&self, receiver: PlanarPolygon<'_>) -> Option<ConvexBody> {
         match self {
-            Self::Area(lamp) => {
-                let above = lamp.above(receiver)?;
-                Some(ConvexBody::polygon(PlanarPolygon { corners: &above, plane: lamp.front }))
+            Self::Area(emitter) => {
+                let above = emitter.above(receiver)?;
+                Some(ConvexBody::polygon(PlanarPolygon { corners: &above, plane: emitter.front }))
             }
             other => other.body(),
         }
@@ -65,8 +65,8 @@ impl Lamp {
     /// [Smits, Arvo and Greenberg 1994]: https://doi.org/10.1145/192161.192277
     pub(super) fn most_on(&self, receiver: &ConvexBody) -> f64 {
         let (exitance, area) = match self {
-            Self::Area(lamp) if !lamp.profile.is_sky() => {
-                (lamp.exitance, area_vector(&lamp.corners).length())
+            Self::Area(emitter) if !emitter.profile.is_sky() => {
+                (emitter.exitance, area_vector(&emitter.corners).length())
             }
             Self::Globe(globe) => {
                 (globe.exitance, 0.25 * PI * globe.low.distance_squared(globe.high))
@@ -93,24 +93,24 @@ impl Lamp {
     /// small; `None` of all others.
     pub(super) fn glance(&self, receiver: SurfacePoint) -> Option<(Rgb, DVec3)> {
         let SurfacePoint { position: place, normal } = receiver;
-        let Self::Area(lamp) = self else { return None };
-        let middle = lamp.corners.iter().sum::<DVec3>() / lamp.corners.len() as f64;
-        let (way, area) = (middle - place, area_vector(&lamp.corners).length());
+        let Self::Area(emitter) = self else { return None };
+        let middle = emitter.corners.iter().sum::<DVec3>() / emitter.corners.len() as f64;
+        let (way, area) = (middle - place, area_vector(&emitter.corners).length());
         let square = way.length_squared();
-        if area > FAR * square || lamp.profile.is_sky() {
+        if area > FAR * square || emitter.profile.is_sky() {
             return None;
         }
-        let cosines = way.dot(normal).max(0.0) * (-way.dot(lamp.front.normal)).max(0.0);
-        Some((lamp.exitance * (area * cosines / (PI * square * square)), middle))
+        let cosines = way.dot(normal).max(0.0) * (-way.dot(emitter.front.normal)).max(0.0);
+        Some((emitter.exitance * (area * cosines / (PI * square * square)), middle))
     }
 
     /// False only if no place on the receiver is lit, whatever stands between.
     pub(super) fn may_reach(&self, receiver: PlanarPolygon<'_>) -> bool {
         let is_above = |p: DVec3| receiver.plane.depth(p) >= 0.0;
         match self {
-            Self::Area(lamp) => {
-                receiver.corners.iter().any(|&corner| lamp.front.depth(corner) > 0.0)
-                    && lamp.corners.iter().any(|&corner| is_above(corner))
+            Self::Area(emitter) => {
+                receiver.corners.iter().any(|&corner| emitter.front.depth(corner) > 0.0)
+                    && emitter.corners.iter().any(|&corner| is_above(corner))
             }
             Self::Globe(globe) => {
                 let up = receiver.plane.normal.cmpge(DVec3::ZERO);
@@ -120,28 +120,28 @@ impl Lamp {
         }
     }
 
-    /// True if a surface is the lamp itself and hides nothing of it.
+    /// True if a surface is the emitter itself and hides nothing of it.
     pub(super) fn is_part(&self, surface: SurfaceId) -> bool {
         matches!(self, Self::Globe(globe) if globe.surfaces.binary_search(&surface).is_ok())
     }
 
     /// As a place with a unit normal sees it, if it sees something; lights without a surface have no view.
-    pub(super) fn view(&self, receiver: SurfacePoint) -> Option<LampView<'_>> {
+    pub(super) fn view(&self, receiver: SurfacePoint) -> Option<EmitterView<'_>> {
         match self {
-            Self::Area(lamp) => lamp.view(receiver),
+            Self::Area(emitter) => emitter.view(receiver),
             Self::Globe(globe) => globe.view(receiver),
             Self::Point(_) => None,
         }
     }
 }
 
-impl AreaLamp {
-    fn view(&self, receiver: SurfacePoint) -> Option<LampView<'_>> {
+impl AreaEmitter {
+    fn view(&self, receiver: SurfacePoint) -> Option<EmitterView<'_>> {
         if self.front.depth(receiver.position) <= 0.0 {
             return None;
         }
         let polygon = self.above_plane(HalfSpace::new(receiver.position, receiver.normal));
-        (!polygon.is_empty()).then(|| LampView {
+        (!polygon.is_empty()).then(|| EmitterView {
             weight: self.profile.weight(receiver, &polygon),
             receiver,
             polygon,

@@ -7,10 +7,10 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::candidates::{Candidate, Candidates, Narrowing};
+use super::emitter::Emitter;
+use super::emitters::Emitters;
 use super::evaluation::{Evaluation, POOLED};
 use super::ids::EmitterId;
-use super::lamp::Lamp;
-use super::lamps::Lamps;
 use super::lines::{EventLine, Shining};
 use super::punctual;
 use super::work::{Evaluated, WorkCounters};
@@ -20,11 +20,11 @@ use crate::geometry::boxes::{self, Aabb};
 use crate::mesh::{Mesh, PatchId};
 use crate::visibility::{Blockers, CROWDED, ConvexBody, Occluders, SurfacePoint};
 
-/// Lamps that can send no more than this share of a tolerated error anywhere on a patch are looked at together there, by
-/// what their middles send.
+/// Emitters that can send no more than this share of a tolerated error anywhere on a patch are looked at together
+/// there, by what their middles send.
 const FAINT: f64 = 0.5 * POOLED;
 
-/// So many occluders before a lamp are cut out of it sooner than they are looked through.
+/// So many occluders before an emitter are cut out of it sooner than they are looked through.
 const LISTED: usize = 4;
 
 /// Light is judged as if at least this share of the mean arrived: nobody sees errors in the dark.
@@ -32,8 +32,8 @@ const DARKEST: f64 = 0.05;
 
 /// Direct light on the patches of a mesh.
 #[derive(Debug)]
-pub struct PatchLight {
-    lamps: Lamps,
+pub struct DirectLight {
+    emitters: Emitters,
     occluders: Occluders,
     candidates: Candidates,
     /// By patch: its unit normal.
@@ -42,16 +42,16 @@ pub struct PatchLight {
     work: WorkCounters,
 }
 
-/// The lamps that can shine on a patch, or a part of one, and what stands in between.
+/// The emitters that can shine on a patch, or a part of one, and what stands in between: its potentially visible set.
 #[derive(Clone, Debug)]
-pub struct Outlook<'a> {
-    light: &'a PatchLight,
+pub struct PotentialEmitters<'a> {
+    light: &'a DirectLight,
     patch: PatchId,
     /// Those of the patch.
     around: &'a [Candidate],
     /// Those of a part that are more than faint, in place of the patch's.
     own: Option<Vec<Candidate>>,
-    /// Lamps that can send no more than this are looked at together, whatever is before them, W/m².
+    /// Emitters that can send no more than this are looked at together, whatever is before them, W/m².
     faint: f64,
 }
 
@@ -65,23 +65,23 @@ struct Tolerated {
     mean: f64,
 }
 
-impl PatchLight {
-    /// The light of `lamps` on the patches of `mesh`, whatever their elements: exact, but for crowds of occluders.
-    pub fn new(lamps: Lamps, occluders: Occluders, mesh: &Mesh) -> Self {
-        Self::observed(lamps, occluders, mesh, |_| ControlFlow::Continue(()))
+impl DirectLight {
+    /// The light of `emitters` on the patches of `mesh`, whatever their elements: exact, but for crowds of occluders.
+    pub fn new(emitters: Emitters, occluders: Occluders, mesh: &Mesh) -> Self {
+        Self::observed(emitters, occluders, mesh, |_| ControlFlow::Continue(()))
     }
 
     /// The same; `observe` is told the share done. When it breaks off, the light of the rest takes longer to evaluate.
     pub fn observed(
-        lamps: Lamps,
+        emitters: Emitters,
         occluders: Occluders,
         mesh: &Mesh,
         observe: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Self {
-        let candidates = Candidates::new(&lamps, &occluders, mesh, observe);
+        let candidates = Candidates::new(&emitters, &occluders, mesh, observe);
         let normals = mesh.patches.iter().map(|patch| patch.normal).collect();
         let (tolerated, work) = (Tolerated::default(), WorkCounters::default());
-        Self { lamps, occluders, candidates, normals, tolerated, work }
+        Self { emitters, occluders, candidates, normals, tolerated, work }
     }
 
     /// The same with errors up to half of those that are tolerated on each patch: given as shares of the geometric
@@ -95,8 +95,8 @@ impl PatchLight {
     }
 
     /// Where it comes from.
-    pub fn lamps(&self) -> &Lamps {
-        &self.lamps
+    pub fn emitters(&self) -> &Emitters {
+        &self.emitters
     }
 
     /// What it has taken to find out how much light there is in all.
@@ -110,9 +110,15 @@ impl PatchLight {
     }
 
     /// The light that all places on a patch may get.
-    pub fn on(&self, patch: PatchId) -> Outlook<'_> {
+    pub fn on(&self, patch: PatchId) -> PotentialEmitters<'_> {
         let faint = FAINT * self.tolerated.error(patch, 0.0);
-        Outlook { light: self, patch, around: self.candidates.of(patch), own: None, faint }
+        PotentialEmitters {
+            light: self,
+            patch,
+            around: self.candidates.of(patch),
+            own: None,
+            faint,
+        }
     }
 
     /// What arrives at a place on a patch.
@@ -123,17 +129,17 @@ impl PatchLight {
     /// What would arrive at a place on a patch if nothing stood between, W/m².
     pub fn unoccluded(&self, patch: PatchId, place: DVec3) -> Rgb {
         let receiver = SurfacePoint::new(place, self.normals[patch.index()]);
-        let Outlook { around, faint, .. } = self.on(patch);
+        let PotentialEmitters { around, faint, .. } = self.on(patch);
         let sent = |candidate: &Candidate| {
-            let lamp = &self.lamps.list[candidate.lamp.index()];
-            let glance = (candidate.most < faint).then(|| lamp.glance(receiver)).flatten();
-            match lamp {
-                Lamp::Point(light) => {
-                    Some(punctual::irradiance(light, receiver, self.lamps.blur)?.0)
+            let emitter = &self.emitters.list[candidate.emitter.index()];
+            let glance = (candidate.most < faint).then(|| emitter.glance(receiver)).flatten();
+            match emitter {
+                Emitter::Point(light) => {
+                    Some(punctual::irradiance(light, receiver, self.emitters.blur)?.0)
                 }
-                lamp => glance
+                emitter => glance
                     .map(|(light, _)| light)
-                    .or_else(|| Some(lamp.view(receiver)?.unoccluded())),
+                    .or_else(|| Some(emitter.view(receiver)?.unoccluded())),
             }
         };
         around.iter().filter_map(sent).sum()
@@ -150,11 +156,11 @@ impl PatchLight {
         let receiver = SurfacePoint::new(place, self.normals[patch.index()]);
         let candidates = self.candidates.of(patch).iter();
         let mut light = Rgb::ZERO;
-        for Candidate { lamp, blockers, .. } in
-            candidates.filter(|candidate| chosen(candidate.lamp))
+        for Candidate { emitter, blockers, .. } in
+            candidates.filter(|candidate| chosen(candidate.emitter))
         {
-            let Some(view) = self.lamps.list[lamp.index()].view(receiver) else { continue };
-            let seen = match self.lamps.rows {
+            let Some(view) = self.emitters.list[emitter.index()].view(receiver) else { continue };
+            let seen = match self.emitters.rows {
                 Some(rows) => view.sampled_evenly(&self.occluders, rows),
                 None => view.exact(&self.occluders, blockers, CROWDED)?,
             };
@@ -167,29 +173,30 @@ impl PatchLight {
     /// interpolation may lose more than `least` by them, W/m²; they may reach beyond the patch.
     ///
     /// The sky makes none: its pieces have no borders that could be seen. Nor do bodies, which are round. Nor are there
-    /// any of lamps that more stands before than is cut out of them: what crowds throw has no borders to speak of.
+    /// any of emitters that more stands before than is cut out of them: what crowds throw has no borders to speak of.
     pub fn lines(&self, mesh: &Mesh, patch: PatchId, least: f64) -> Vec<EventLine> {
         let corners = &mesh[patch].corners;
         let receiver = PlanarPolygon::new(corners, self.normals[patch.index()]);
         let mut lines = Vec::new();
         let candidates = self.candidates.of(patch).iter();
-        for Candidate { lamp: number, blockers, .. } in candidates.filter(|c| c.most > least) {
-            let source = &self.lamps.list[number.index()];
-            let Lamp::Area(lamp) = source else { continue };
-            let Some(above) = lamp.above(receiver).filter(|_| !lamp.profile.is_sky()) else {
+        for Candidate { emitter: number, blockers, .. } in candidates.filter(|c| c.most > least) {
+            let source = &self.emitters.list[number.index()];
+            let Emitter::Area(emitter) = source else { continue };
+            let Some(above) = emitter.above(receiver).filter(|_| !emitter.profile.is_sky()) else {
                 continue;
             };
             let most = most_by(source, receiver);
             if most <= least {
                 continue;
             }
-            let body = ConvexBody::polygon(PlanarPolygon { corners: &above, plane: lamp.front });
+            let body = ConvexBody::polygon(PlanarPolygon { corners: &above, plane: emitter.front });
             let beneath = ConvexBody::polygon(receiver);
             let between = self.occluders.numbers_in(blockers, &body, &beneath, CROWDED + 1);
             if between.len() > CROWDED {
                 continue;
             }
-            let shining = Shining { number: *number, lamp, above: &above, receiver, most, least };
+            let shining =
+                Shining { number: *number, emitter, above: &above, receiver, most, least };
             lines.extend(shining.lines(&self.occluders, between.into_iter()));
         }
         lines
@@ -211,7 +218,7 @@ impl PatchLight {
         let irradiance = |&patch: &PatchId| {
             let corners = &mesh[patch].corners;
             let place = corners.iter().sum::<DVec3>() / corners.len() as f64;
-            // A ray or two for each lamp.
+            // A ray or two for each emitter.
             self.on(patch).within(place, |here| here.max(f64::MIN_POSITIVE))
         };
         let found: Vec<Evaluated> = chosen.par_iter().map(irradiance).collect();
@@ -221,7 +228,7 @@ impl PatchLight {
     }
 }
 
-impl<'a> Outlook<'a> {
+impl<'a> PotentialEmitters<'a> {
     /// The light that places on a convex part of it may get: looked through once more where much stands in its way, so
     /// that the more places are evaluated the better it pays.
     pub fn on_part(&self, corners: &[DVec3]) -> Self {
@@ -231,7 +238,7 @@ impl<'a> Outlook<'a> {
             return self.clone();
         }
         let receiver = PlanarPolygon::new(corners, light.normals[self.patch.index()]);
-        let narrowing = Narrowing { lamps: &light.lamps, occluders: &light.occluders };
+        let narrowing = Narrowing { emitters: &light.emitters, occluders: &light.occluders };
         let own = match &self.own {
             Some(own) => narrowing.of_polygon(own.iter(), receiver, self.faint),
             None => {
@@ -242,22 +249,22 @@ impl<'a> Outlook<'a> {
         Self { own: Some(own), ..*self }
     }
 
-    /// True if nothing stands before any lamp.
+    /// True if nothing stands before any emitter.
     pub fn is_clear(&self) -> bool {
         self.candidates().all(|candidate| candidate.blockers.is_clear())
     }
 
-    /// True if more stands before a lamp than can be listed.
+    /// True if more stands before an emitter than can be listed.
     pub fn is_crowded(&self) -> bool {
         self.candidates().any(|candidate| matches!(candidate.blockers, Blockers::Many(_)))
     }
 
-    /// True if some lamp is nearer to a patch than `distance`, m: light may then be steep on it.
+    /// True if some emitter is nearer to a patch than `distance`, m: light may then be steep on it.
     pub(crate) fn is_near(&self, mesh: &Mesh, distance: f64) -> bool {
         let corners = mesh[self.patch].corners.iter().copied();
         let around = boxes::around(corners);
         self.candidates().any(|candidate| {
-            let body = self.light.lamps.list[candidate.lamp.index()].body();
+            let body = self.light.emitters.list[candidate.emitter.index()].body();
             body.is_some_and(|body| {
                 let (low, high) = body.bounds();
                 boxes::are_close(around, Aabb { low, high }, distance)
@@ -273,8 +280,8 @@ impl<'a> Outlook<'a> {
     /// The same with errors as are `tolerated` where at least so much arrives, W/m².
     fn within(&self, place: DVec3, tolerated: impl Fn(f64) -> f64) -> Evaluated {
         let normal = self.light.normals[self.patch.index()];
-        let PatchLight { lamps, occluders, .. } = self.light;
-        let mut evaluation = Evaluation::new(lamps, occluders, SurfacePoint::new(place, normal));
+        let DirectLight { emitters, occluders, .. } = self.light;
+        let mut evaluation = Evaluation::new(emitters, occluders, SurfacePoint::new(place, normal));
         for candidate in self.candidates() {
             if candidate.most >= self.faint || !evaluation.add_faint(candidate) {
                 evaluation.add(candidate);
@@ -299,16 +306,16 @@ impl Tolerated {
     }
 }
 
-/// The most irradiance by a lamp at the corners and in the middle of a receiver, W/m²; any, if it has no surface.
-fn most_by(lamp: &Lamp, receiver: PlanarPolygon<'_>) -> f64 {
-    if matches!(lamp, Lamp::Point(_)) {
+/// The most irradiance by an emitter at the corners and in the middle of a receiver, W/m²; any, if it has no surface.
+fn most_by(emitter: &Emitter, receiver: PlanarPolygon<'_>) -> f64 {
+    if matches!(emitter, Emitter::Point(_)) {
         return f64::INFINITY;
     }
     let corners = receiver.corners;
     let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
     let views = corners.iter().chain([&middle]).filter_map(|&at| {
-        // The corners of what is on one plane with the lamp see nothing of it.
-        lamp.view(SurfacePoint::new(at.lerp(middle, 1e-3), receiver.plane.normal))
+        // The corners of what is on one plane with the emitter see nothing of it.
+        emitter.view(SurfacePoint::new(at.lerp(middle, 1e-3), receiver.plane.normal))
     });
     views.map(|view| strength(view.unoccluded())).fold(0.0, f64::max)
 }

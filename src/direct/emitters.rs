@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::lamp::{AreaLamp, Lamp};
+use super::emitter::{AreaEmitter, Emitter};
 use super::profile::RadianceProfile;
 use super::{globe, glow, punctual, sky};
 use crate::geometry::cut::{Cuts, convex_pieces};
@@ -14,15 +14,15 @@ use crate::visibility::{CROWDED, Occluders, SurfacePoint};
 
 /// All emitters of a scene.
 #[derive(Clone, Debug)]
-pub struct Lamps {
-    pub(super) list: Vec<Lamp>,
+pub struct Emitters {
+    pub(super) list: Vec<Emitter>,
     /// Rows of cells to each triangle of a light that is always sampled.
     pub(super) rows: Option<u32>,
     /// Radius of the discs on which the light of points is evaluated, m.
     pub(super) blur: f64,
 }
 
-impl Lamps {
+impl Emitters {
     /// The emitting surfaces, in convex pieces, and the lights of a scene.
     pub fn new(surfaces: &Surfaces, mesh: &Mesh) -> Self {
         let globes = globe::globes(surfaces);
@@ -32,23 +32,23 @@ impl Lamps {
         }
         let emitters = (0..surfaces.list.len() as u32).map(SurfaceId);
         let emitters = emitters.filter(|&id| surfaces[id].is_emitter() && !in_globe[id.index()]);
-        let mut areas: Vec<AreaLamp> =
+        let mut areas: Vec<AreaEmitter> =
             emitters.flat_map(|id| areas_of(surfaces, mesh, id)).collect();
         let mut points = Vec::new();
         for NamedLight { light, .. } in &surfaces.lights {
             match *light {
                 Light::Sky { sky, irradiance } => {
-                    areas.extend(sky::lamps(surfaces, sky, irradiance));
+                    areas.extend(sky::emitters(surfaces, sky, irradiance));
                 }
                 Light::Sun { direction, irradiance } => {
                     areas.extend(sky::sun(surfaces, direction, irradiance));
                 }
-                _ => points.push(Lamp::Point(light.clone())),
+                _ => points.push(Emitter::Point(light.clone())),
             }
         }
-        areas.retain(|lamp| lamp.exitance.max_element() > 0.0);
-        let areas = areas.into_iter().map(Lamp::Area);
-        let list = areas.chain(globes.into_iter().map(Lamp::Globe)).chain(points).collect();
+        areas.retain(|emitter| emitter.exitance.max_element() > 0.0);
+        let areas = areas.into_iter().map(Emitter::Area);
+        let list = areas.chain(globes.into_iter().map(Emitter::Globe)).chain(points).collect();
         Self { list, rows: None, blur: 0.0 }
     }
 
@@ -76,10 +76,10 @@ impl Lamps {
     pub fn shine(&self, occluders: &Occluders, place: DVec3, normal: DVec3) -> Direct {
         let (all, receiver) = (occluders.all(), SurfacePoint::new(place, normal));
         let mut light = Direct::default();
-        for lamp in &self.list {
-            let arriving = match lamp {
-                Lamp::Point(point) => punctual::shine(point, occluders, receiver),
-                lamp => lamp.view(receiver).map(|view| {
+        for emitter in &self.list {
+            let arriving = match emitter {
+                Emitter::Point(point) => punctual::shine(point, occluders, receiver),
+                emitter => emitter.view(receiver).map(|view| {
                     let seen = self.rows.map_or_else(
                         || view.exact(occluders, &all, CROWDED),
                         |rows| Some(view.sampled_evenly(occluders, rows)),
@@ -94,25 +94,25 @@ impl Lamps {
     }
 }
 
-/// The lamps that an emitting surface is: convex pieces, of its patches where a picture says how bright each is.
-fn areas_of(surfaces: &Surfaces, mesh: &Mesh, id: SurfaceId) -> Vec<AreaLamp> {
+/// The emitters that an emitting surface is: convex pieces, of its patches where a picture says how bright each is.
+fn areas_of(surfaces: &Surfaces, mesh: &Mesh, id: SurfaceId) -> Vec<AreaEmitter> {
     let surface = &surfaces[id];
-    let front = globe::front(surface, surfaces.tolerance);
+    let front = globe::front(surface, surfaces.epsilon);
     let profile = RadianceProfile::Diffuse;
     if surfaces[surface.material].emission_texture.is_some() {
         let patches = mesh.patches.iter().filter(|patch| patch.surface == id);
         let pieces = patches.flat_map(|patch| glow::pieces(surfaces, patch));
         return pieces
-            .map(|(corners, exitance)| AreaLamp { corners, front, exitance, profile })
+            .map(|(corners, exitance)| AreaEmitter { corners, front, exitance, profile })
             .collect();
     }
-    let cuts = Cuts { segments: &[], size: f64::INFINITY, tolerance: surfaces.tolerance };
+    let cuts = Cuts { segments: &[], size: f64::INFINITY, epsilon: surfaces.epsilon };
     let pieces = convex_pieces(&surface.rings, &cuts);
-    let lamp = |piece: &crate::geometry::polygon::Convex| AreaLamp {
+    let emitter = |piece: &crate::geometry::polygon::Convex| AreaEmitter {
         corners: piece.iter().map(|&p| surface.plane.lift(p)).collect(),
         front,
         exitance: surface.exitance,
         profile,
     };
-    pieces.iter().map(lamp).collect()
+    pieces.iter().map(emitter).collect()
 }

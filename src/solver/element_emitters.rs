@@ -1,4 +1,4 @@
-//! What is seen of the lamps from elements, found when it is first asked for.
+//! What is seen of the emitters from elements, found when it is first asked for.
 
 use std::sync::OnceLock;
 
@@ -6,24 +6,24 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::context::Context;
-use crate::direct::Outlook;
+use crate::direct::PotentialEmitters;
 use crate::mesh::{ElementId, Mesh};
 
-/// The outlooks of a mesh's elements, each a part of that of the element around it.
-pub(super) struct Outlooks<'a> {
+/// What may shine on the elements of a mesh: of each, a part of what may on the element around it.
+pub(super) struct ElementEmitters<'a> {
     pub(super) context: Context<'a>,
     /// By element.
-    of: Vec<OnceLock<Outlook<'a>>>,
+    of: Vec<OnceLock<PotentialEmitters<'a>>>,
     /// By element: that of which it is a part, if that is known.
     around: Vec<Option<ElementId>>,
 }
 
-impl<'a> Outlooks<'a> {
+impl<'a> ElementEmitters<'a> {
     /// Of the elements that the mesh has now, none of which has been looked from.
     pub(super) fn new(context: Context<'a>, mesh: &Mesh) -> Self {
-        let mut outlooks = Self { context, of: Vec::new(), around: Vec::new() };
-        outlooks.extend(mesh, &[]);
-        outlooks
+        let mut element_emitters = Self { context, of: Vec::new(), around: Vec::new() };
+        element_emitters.extend(mesh, &[]);
+        element_emitters
     }
 
     /// Takes in the elements that the mesh has got since, parts of some that were divided.
@@ -38,7 +38,7 @@ impl<'a> Outlooks<'a> {
     }
 
     /// What is seen from an element of the mesh.
-    pub(super) fn from(&self, mesh: &Mesh, element: ElementId) -> &Outlook<'a> {
+    pub(super) fn from(&self, mesh: &Mesh, element: ElementId) -> &PotentialEmitters<'a> {
         self.of[element.index()].get_or_init(|| {
             let plane = mesh.plane(mesh[element].patch);
             let outline = mesh.outline(element);
@@ -50,7 +50,7 @@ impl<'a> Outlooks<'a> {
         })
     }
 
-    /// Drops the outlooks of elements; they are found anew if they are asked for.
+    /// Forgets what may shine on elements; it is found anew if it is asked for.
     pub(super) fn forget(&mut self, elements: &[ElementId]) {
         elements.iter().for_each(|element| self.of[element.index()] = OnceLock::new());
     }

@@ -13,7 +13,7 @@ use crate::settings::Settings;
 
 /// The solution after each of these numbers of shots of reflected light, the light still unshot
 /// estimated as ambient; those that the whole exchange does not reach are left out.
-pub(super) fn stages(
+pub(super) fn snapshots(
     context: Context<'_>,
     settings: &Settings,
     LitMesh { mesh, light, work }: &LitMesh<'_>,
@@ -22,7 +22,7 @@ pub(super) fn stages(
 ) -> Result<Vec<Solution>> {
     let emitters =
         context.optics.exitance.iter().filter(|exitance| exitance.max_element() > 0.0).count();
-    let mut stages = Vec::new();
+    let mut snapshots = Vec::new();
     // They are soon made anew, and not steps on the way to the solution.
     let checkpoint = std::mem::take(observer.checkpoint);
     for shots in shots {
@@ -36,9 +36,9 @@ pub(super) fn stages(
             let (mesh, mut light) = (Mesh::clone(mesh), VertexLight::clone(light));
             exchange.spread(&mesh, &mut light);
             let lighting = VertexLighting { light, work: **work };
-            stages.push(exchange.solution(mesh, context.optics.clone(), lighting));
+            snapshots.push(exchange.solution(mesh, context.optics.clone(), lighting));
         }
     }
     *observer.checkpoint = checkpoint;
-    Ok(stages)
+    Ok(snapshots)
 }

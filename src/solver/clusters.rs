@@ -1,4 +1,4 @@
-//! Groups of facets: pieces of curved surfaces much smaller than patches should be send their light as one.
+//! Clusters of facets: pieces of curved surfaces much smaller than patches should be send their light as one.
 //!
 //! Facets of a fine mesh are surfaces of their own, and so patches of their own, far more than the exchange
 //! of light needs. Joined where they hang together and face about the same way, they shoot as one, after the
@@ -17,44 +17,44 @@ use crate::surface::Surfaces;
 /// Surfaces not longer than this share of a patch's longest side are facets.
 const SMALL: f64 = 0.5;
 
-/// Facets of a group are within this share of a patch's longest side of the one that it grew from.
+/// Facets of a cluster are within this share of a patch's longest side of the one that it grew from.
 const REACH: f64 = 0.5;
 
 /// Cosine of the greatest angle between any of them and that one: 25°.
 const ALIKE: f64 = 0.906;
 
-/// Patches in groups; most groups are a single patch.
+/// Patches in clusters; most clusters are a single patch.
 #[derive(Clone, Debug)]
-pub(super) struct Groups {
-    /// By group: its patches, in their order.
+pub(super) struct Clusters {
+    /// By cluster: its patches, in their order.
     members: Vec<Vec<PatchId>>,
     /// By patch.
     of: Vec<u32>,
-    /// By group: the middle of the box around its patches' centres, m, and that box's diagonal, m.
+    /// By cluster: the middle of the box around its patches' centres, m, and that box's diagonal, m.
     places: Vec<(DVec3, f64)>,
 }
 
-impl Groups {
-    /// The groups of a mesh, in the order of their first patches.
+impl Clusters {
+    /// The clusters of a mesh, in the order of their first patches.
     pub(super) fn new(surfaces: &Surfaces, settings: &Settings, mesh: &Mesh) -> Self {
         let size = settings.patch_length(surfaces.extent);
         let facets: Vec<bool> =
             surfaces.list.iter().map(|surface| surface.extent() <= SMALL * size).collect();
         let is_facet = |patch: &Patch| facets[patch.surface.index()];
-        let corners = FacetCorners::new(mesh, is_facet, surfaces.tolerance);
+        let corners = FacetCorners::new(mesh, is_facet, surfaces.epsilon);
         let of = vec![u32::MAX; mesh.patches.len()];
-        let mut groups = Self { members: Vec::new(), of, places: Vec::new() };
+        let mut clusters = Self { members: Vec::new(), of, places: Vec::new() };
         for (index, patch) in mesh.patches.iter().enumerate() {
-            if groups.of[index] == u32::MAX {
+            if clusters.of[index] == u32::MAX {
                 let seed = PatchId(index as u32);
                 let reach = if is_facet(patch) { REACH * size } else { 0.0 };
-                groups.grow(mesh, &corners, seed, reach);
+                clusters.grow(mesh, &corners, seed, reach);
             }
         }
-        groups
+        clusters
     }
 
-    /// A group of the facets that hang together with a `seed` and are within `reach` of it, m.
+    /// A cluster of the facets that hang together with a `seed` and are within `reach` of it, m.
     fn grow(&mut self, mesh: &Mesh, corners: &FacetCorners, seed: PatchId, reach: f64) {
         let number = self.members.len() as u32;
         let centre = centre(&mesh[seed]);
@@ -79,7 +79,7 @@ impl Groups {
         self.members.push(members);
     }
 
-    /// Number of groups.
+    /// Number of clusters.
     pub(super) fn len(&self) -> usize {
         self.members.len()
     }
@@ -89,32 +89,32 @@ impl Groups {
         self.of.len()
     }
 
-    /// The patches of a group.
-    pub(super) fn members(&self, group: usize) -> &[PatchId] {
-        &self.members[group]
+    /// The patches of a cluster.
+    pub(super) fn members(&self, cluster: usize) -> &[PatchId] {
+        &self.members[cluster]
     }
 
-    /// The group of a patch.
+    /// The cluster of a patch.
     pub(super) fn of(&self, patch: PatchId) -> usize {
         self.of[patch.index()] as usize
     }
 
-    /// The element to which links of a group of several patches are tied: its first patch's.
-    pub(super) fn receiver(&self, mesh: &Mesh, group: usize) -> ElementId {
-        mesh[self.members[group][0]].root
+    /// The element to which links of a cluster of several patches are tied: its first patch's.
+    pub(super) fn receiver(&self, mesh: &Mesh, cluster: usize) -> ElementId {
+        mesh[self.members[cluster][0]].root
     }
 
-    /// The middle of a group, m.
-    pub(super) fn centre(&self, group: usize) -> DVec3 {
-        self.places[group].0
+    /// The middle of a cluster, m.
+    pub(super) fn centre(&self, cluster: usize) -> DVec3 {
+        self.places[cluster].0
     }
 
     /// How far apart the centres of its patches are, m.
-    pub(super) fn size(&self, group: usize) -> f64 {
-        self.places[group].1
+    pub(super) fn size(&self, cluster: usize) -> f64 {
+        self.places[cluster].1
     }
 
-    /// True if a patch is one of several in its group.
+    /// True if a patch is one of several in its cluster.
     pub(super) fn holds(&self, patch: PatchId) -> bool {
         self.members[self.of(patch)].len() > 1
     }
@@ -150,12 +150,12 @@ impl FacetCorners {
     }
 }
 
-/// A part of a group, and the facet that looks for it.
+/// A part of a cluster, and the facet that looks for it.
 #[derive(Clone, Debug)]
 pub(super) struct SubCluster {
     pub(super) members: Vec<PatchId>,
     /// In the middle, facing as they do in the mean.
-    pub(super) speaker: PatchId,
+    pub(super) representative: PatchId,
     /// Area, m².
     pub(super) area: f64,
     /// Diagonal of the box around the members' centres, m.
@@ -179,8 +179,8 @@ impl SubCluster {
             let [a, b] = [a, b].map(|&&member| aside(&mesh[member]));
             a.total_cmp(&b)
         });
-        let speaker = nearest.copied().unwrap_or(members[0]);
-        Self { members, speaker, area, size }
+        let representative = nearest.copied().unwrap_or(members[0]);
+        Self { members, representative, area, size }
     }
 
     /// Two parts of a part, cut across its longest extent.

@@ -4,13 +4,13 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 
+use super::clusters::Clusters;
 use super::context::GatherContext;
 use super::gather::Gatherer;
-use super::groups::Groups;
 use super::solution::Solution;
 use super::sources::Sources;
 use crate::colour::{LUMENS_PER_WATT, Rgb, luminance};
-use crate::direct::Lamps;
+use crate::direct::Emitters;
 use crate::form_factor::hemicube::{Hemicube, HemicubeScene, turn};
 use crate::settings::Settings;
 use crate::surface::Surfaces;
@@ -60,19 +60,19 @@ pub fn read(
 ) -> Vec<Reading> {
     let Solution { mesh, optics, vertex_light, .. } = solution;
     let occluders = Occluders::new(surfaces);
-    let lamps = Lamps::new(surfaces, mesh).seen_by(settings.shadow_rays);
+    let emitters = Emitters::new(surfaces, mesh).seen_by(settings.shadow_rays);
     let sources = Sources::of_vertices(mesh, optics, vertex_light);
-    let level = sources.level(mesh, vertex_light);
-    let groups = Groups::new(surfaces, settings, mesh);
-    let surroundings = GatherContext { surfaces, occluders: &occluders, groups: &groups };
-    let gatherer = Gatherer::new(surroundings, settings, mesh, sources, level);
+    let mean = sources.mean_radiosity_shown(mesh, vertex_light);
+    let clusters = Clusters::new(surfaces, settings, mesh);
+    let surroundings = GatherContext { surfaces, occluders: &occluders, clusters: &clusters };
+    let gatherer = Gatherer::new(surroundings, settings, mesh, sources, mean);
     let targets = HemicubeScene::new(&mesh.patches);
     let hemicube = |_: &Enough| Hemicube::new(gatherer.delta(), &targets, &occluders);
     let numbered: Vec<_> = points.iter().copied().enumerate().collect();
     let reading = |hemicube: &mut Hemicube<'_>, &(k, point): &(usize, SurfacePoint)| Reading {
         place: point.position,
         normal: point.normal,
-        direct: lamps.shine(&occluders, point.position, point.normal).irradiance,
+        direct: emitters.shine(&occluders, point.position, point.normal).irradiance,
         indirect: gatherer.at(mesh, hemicube, point, turn(k as f64)),
     };
     in_batches(&numbered, hemicube, reading, observe)
