@@ -10,7 +10,11 @@ import * as components from "./browser/components.mjs";
 
 const { HELPERS, must } = components;
 
-const WIDTHS = [1280, 400];
+const WIDTHS = [1280, 390];
+const SCHEMES = ["light", "dark"];
+
+// Least contrast of letters, as WCAG 2 has it for ordinary text.
+const CONTRAST = 4.5;
 
 // Before the page's scripts: what there is already, and a count of what is drawn.
 const WATCH = `${HELPERS}
@@ -63,14 +67,57 @@ async function readable(browser, path, prepare, what) {
   await page.close();
 }
 
+const inScheme = (value) => (page) =>
+  page.send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value }] });
+
+// In both schemes, wide and narrow, all folded away or open.
 async function fits(browser, path, directory) {
-  for (const width of WIDTHS) {
-    const page = await browser.open(path, { width });
-    const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
-    must(excess <= 0, `the page is ${excess} pixels wider than a window of ${width}`);
-    if (directory) await pictures(page, join(directory, `${basename(path, ".html")}-${width}`));
-    await page.close();
+  for (const scheme of SCHEMES) {
+    for (const width of WIDTHS) {
+      const page = await browser.open(path, { width, prepare: inScheme(scheme) });
+      await isNoWiderThan(page, width);
+      await canBeRead(page, scheme);
+      await leads(page);
+      if (directory && scheme === "light") await pictures(page, join(directory, `${basename(path, ".html")}-${width}`));
+      await page.evaluate(() => document.querySelectorAll("details").forEach((details) => { details.open = true; }));
+      await isNoWiderThan(page, width);
+      await page.close();
+    }
   }
+}
+
+async function isNoWiderThan(page, width) {
+  const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+  must(excess <= 0, `the page is ${excess} pixels wider than a window of ${width}`);
+}
+
+// Letters, those of charts too, stand out from the page.
+async function canBeRead(page, scheme) {
+  const faint = await page.evaluate((least) => {
+    const light = (colour) => {
+      const channels = colour.match(/[\d.]+/g).slice(0, 3).map((x) => x / 255);
+      const [r, g, b] = channels.map((x) => (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4));
+      return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    };
+    const paper = light(getComputedStyle(document.body).backgroundColor);
+    const contrast = (ink) => (Math.max(ink, paper) + 0.05) / (Math.min(ink, paper) + 0.05);
+    const letters = [...document.querySelectorAll("h1, h2, h3, h4, p:not(.message), figcaption, td, th, nav a, .plot text")];
+    const ink = (element) => getComputedStyle(element)[element.closest("svg") ? "fill" : "color"];
+    return letters.filter((element) => !element.closest(".stage") && contrast(light(ink(element))) < least)
+      .map((element) => `${element.localName} "${element.textContent.trim().slice(0, 30)}"`);
+  }, CONTRAST);
+  must(faint.length === 0, `${scheme}: these can hardly be read: ${faint.slice(0, 5)}`);
+}
+
+// Contents lead somewhere, and to every section.
+async function leads(page) {
+  const lost = await page.evaluate(() => {
+    const links = [...document.querySelectorAll("nav a")].map((link) => link.getAttribute("href"));
+    const nowhere = links.filter((href) => !document.querySelector(href));
+    const sections = [...document.querySelectorAll("section")].map((section) => `#${section.id}`);
+    return nowhere.concat(sections.filter((href) => !links.includes(href)));
+  });
+  must(lost.length === 0, `contents and sections do not match: ${lost}`);
 }
 
 // The page as it is at first, in every mode of its viewers, and with the mesh.

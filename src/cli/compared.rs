@@ -14,9 +14,7 @@ pub(crate) fn table(scene: &Path, comparison: &Comparison, written: &[PathBuf]) 
     lines.push(String::new());
     lines.push(reference(comparison));
     lines.extend(slopes(comparison));
-    if comparison.interrupted {
-        lines.push("interrupted: not all runs were done".to_owned());
-    }
+    lines.extend(comparison.stopped());
     lines.push(String::new());
     lines.extend(comparison.verdict.sentences().into_iter().filter(|line| !line.is_empty()));
     let written: Vec<String> = written.iter().map(|path| path.display().to_string()).collect();

@@ -5,7 +5,9 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use super::plan::{ComparisonPlan, ReferenceSource};
+use super::held_reference::HeldReference;
+use super::path_tracer::PathTracer;
+use super::plan::ComparisonPlan;
 use super::profile::{ShadowProfile, Trace};
 use super::reference::Reference;
 use super::run::{Division, Family, Run, TimedSurfaces};
@@ -54,11 +56,12 @@ pub struct Comparison {
     pub interrupted: bool,
 }
 
-/// Compares meshes of a scene; when `observe` breaks off, the run under way is given up and no other begins.
+/// Compares meshes of a scene; when `observe` breaks off, the run under way is given up, no other begins, and the
+/// reference stays as it is by then.
 ///
 /// # Errors
-/// Those of [`solve`](crate::solver::solve) and of [`Reference::load`]; when it is stopped before the first run has
-/// begun.
+/// Those of [`solve`](crate::solver::solve) and of [`Reference::load`]; when it is stopped before the first run is
+/// done.
 pub fn compare(
     scene: &Scene,
     plan: &ComparisonPlan,
@@ -71,22 +74,21 @@ pub fn compare(
     plan.validate()?;
     plan.validate_for(&surfaces)?;
     let mut observer = Reporter { observe, flow: ControlFlow::Continue(()), runs: 0 };
-    let reference = match &plan.reference {
-        ReferenceSource::File(path) => Reference::load(path, surfaces.extent)?,
-        ReferenceSource::Traced(effort) => {
-            Reference::trace(&surfaces, effort, &mut |done| observer.tell("reference", done))?
-        }
-    };
+    let tracer = PathTracer::new(&surfaces);
+    let truth = HeldReference::begin(&tracer, &plan.reference, &mut |done| {
+        observer.tell("first reference", done)
+    })?;
     let scene = TimedSurfaces { surfaces: &surfaces, seconds };
-    let mut series = Series { scene, plan, reference: &reference, runs: Vec::new() };
+    let mut series = Series { scene, plan, tracer: &tracer, truth, runs: Vec::new() };
     series.run(&mut observer)?;
     if series.runs.is_empty() {
         return Err(Error::Scene("stopped before the first run".to_owned()));
     }
+    series.sharpen(&mut observer);
     series.sort();
     let shown = shown(&series.runs);
     let profile = shown.and_then(|shown| series.profile(shown, &mut observer));
-    let runs = series.runs;
+    let (runs, reference) = (series.runs, series.truth.into_reference());
     let interrupted = observer.flow.is_break();
     let verdict = Verdict::new(&runs, plan.error);
     Ok(Comparison { verdict, profile, shown, interrupted, surfaces, reference, runs })
@@ -114,7 +116,8 @@ impl Reporter<'_> {
 struct Series<'a> {
     scene: TimedSurfaces<'a>,
     plan: &'a ComparisonPlan,
-    reference: &'a Reference,
+    tracer: &'a PathTracer<'a>,
+    truth: HeldReference<'a>,
     runs: Vec<Run>,
 }
 
@@ -144,7 +147,8 @@ impl Series<'_> {
         if observer.tell(&name, 0.0).is_break() {
             return Ok(());
         }
-        let run = Run::new(self.scene, division, &settings, self.reference, &mut |progress| {
+        let reference = self.truth.reference();
+        let run = Run::new(self.scene, division, &settings, reference, &mut |progress| {
             let done = (f64::from(progress.phase as u8) + progress.done) / PHASES;
             observer.tell(&name, done)
         })?;
@@ -152,6 +156,15 @@ impl Series<'_> {
         observer.runs = self.runs.len();
         self.spare_memory();
         Ok(())
+    }
+
+    /// Judges all runs anew by a reference that resolves their errors, if there is time for that.
+    fn sharpen(&mut self, observer: &mut Reporter<'_>) {
+        let scores = self.runs.iter().map(|run| &run.score).collect::<Vec<_>>();
+        let better = self.truth.sharpened(&scores, &mut |done| observer.tell("reference", done));
+        for (run, score) in self.runs.iter_mut().zip(better) {
+            run.score = score;
+        }
     }
 
     /// Uniform runs before adaptive ones, either from coarse to fine.
@@ -172,7 +185,7 @@ impl Series<'_> {
         }
         let surfaces = self.scene.surfaces;
         let observe = &mut |done| observer.tell("profile", done);
-        let profile = ShadowProfile::find(surfaces, self.reference, paths, observe)?;
+        let profile = ShadowProfile::find(self.tracer, self.truth.reference(), paths, observe)?;
         let trace = |run: usize| Some(profile.trace(surfaces, self.runs[run].lit.as_ref()?));
         let [uniform, adaptive] = shown.map(trace);
         let traces = [uniform?, adaptive?];

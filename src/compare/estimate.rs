@@ -1,7 +1,7 @@
 //! Radiosity at places, with the standard error that the spread of independent rounds shows.
 
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use rayon::prelude::*;
 
@@ -26,8 +26,9 @@ pub struct Effort {
     pub area_points: usize,
     /// Places where shadow falls steeply, at most.
     pub shadow_points: usize,
-    /// Good enough: root mean square of the standard errors, as a share of the mean radiosity.
-    pub noise: f64,
+    /// Good enough: root mean square of the standard errors, as a share of the mean radiosity. `None`: so small that
+    /// a comparison resolves the smallest error of its runs; without runs, 0.2 %.
+    pub noise: Option<f64>,
     /// After this, no path begins but the first few.
     pub budget: Duration,
     /// Which random numbers.
@@ -36,14 +37,16 @@ pub struct Effort {
 
 impl Default for Effort {
     fn default() -> Self {
-        let budget = Duration::from_secs(120);
-        Self { area_points: 6000, shadow_points: 3000, noise: 0.002, budget, seed: 1 }
+        let budget = Duration::from_secs(60);
+        Self { area_points: 6000, shadow_points: 3000, noise: None, budget, seed: 1 }
     }
 }
 
 /// What is known of one place.
 #[derive(Clone, Copy, Debug)]
 struct Sums {
+    /// Which of all places it is: its random numbers hang on that.
+    number: u64,
     direct: Rgb,
     reflectance: Rgb,
     rounds: [Rgb; ROUNDS],
@@ -54,7 +57,7 @@ struct Sums {
 #[derive(Debug)]
 pub(super) struct LightEstimate<'a> {
     tracer: &'a PathTracer<'a>,
-    sites: &'a [Site],
+    pub(super) sites: Vec<Site>,
     sums: Vec<Sums>,
     seed: u64,
     /// Paths of each round so far.
@@ -62,32 +65,43 @@ pub(super) struct LightEstimate<'a> {
 }
 
 impl<'a> LightEstimate<'a> {
-    pub(super) fn new(tracer: &'a PathTracer<'a>, sites: &'a [Site], seed: u64) -> Self {
-        let start = |site: &Site| Sums {
+    pub(super) fn new(tracer: &'a PathTracer<'a>, sites: Vec<Site>, seed: u64) -> Self {
+        let start = |(number, site): (usize, &Site)| Sums {
+            number: number as u64,
             direct: tracer.direct(site).irradiance,
             reflectance: tracer.reflectance(site),
             rounds: [Rgb::ZERO; ROUNDS],
             escaped: 0,
         };
-        let sums = sites.par_iter().map(start).collect();
+        let sums = sites.par_iter().enumerate().map(start).collect();
         Self { tracer, sites, sums, seed, paths: 0 }
     }
 
-    /// Lengthens the rounds until `effort` is spent, the noise is small or `observe`, told of the share done,
-    /// breaks off. If that is before they have been lengthened once, nothing is known.
-    pub(super) fn run(&mut self, effort: &Effort, observe: &mut dyn FnMut(f64) -> ControlFlow<()>) {
-        let (start, mut told) = (Instant::now(), 0.0);
-        while self.paths < MOST_PATHS {
-            let more = self.paths.clamp(PATHS[0], PATHS[1]);
-            if self.lengthen(more, || observe(told)).is_break() {
+    /// The first few paths of each round; none, if `observe` breaks off before all are done.
+    pub(super) fn begin(
+        &mut self,
+        observe: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.lengthen(PATHS[0], || observe(0.0))
+    }
+
+    /// Lengthens the rounds until `share_done`, asked each time which part of all paths has been followed, says 1,
+    /// or `observe`, told of it, breaks off.
+    pub(super) fn run(
+        &mut self,
+        share_done: &mut dyn FnMut(&Self) -> f64,
+        observe: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) {
+        loop {
+            let done = share_done(self).min(1.0);
+            if observe(done).is_break() || done >= 1.0 || self.paths >= MOST_PATHS {
                 return;
             }
-            let (spent, noise) = (start.elapsed(), self.noise());
-            // Errors fall as one over the square root of the number of paths.
-            let by_noise = (effort.noise / noise.max(f64::MIN_POSITIVE)).powi(2);
-            let by_time = spent.as_secs_f64() / effort.budget.as_secs_f64().max(1e-9);
-            told = by_noise.max(by_time).min(1.0);
-            if observe(told).is_break() || told >= 1.0 {
+            let all = f64::from(self.paths) / done.max(f64::MIN_POSITIVE);
+            let missing = all.min(f64::from(MOST_PATHS)) as u32 - self.paths;
+            let most = self.paths.clamp(PATHS[0], PATHS[1]);
+            let more = missing.next_multiple_of(PATHS[0]).clamp(PATHS[0], most);
+            if self.lengthen(more, || observe(done)).is_break() {
                 return;
             }
         }
@@ -101,17 +115,17 @@ impl<'a> LightEstimate<'a> {
     ) -> ControlFlow<()> {
         let (tracer, seed) = (self.tracer, self.seed);
         let range = self.paths..self.paths + paths;
-        let longer = |(number, (sums, site)): (usize, (&Sums, &Site))| {
+        let longer = |(sums, site): (&Sums, &Site)| {
             let mut sums = *sums;
             for (round, sum) in sums.rounds.iter_mut().enumerate() {
-                let seed = mixed(&[seed, round as u64, number as u64]);
+                let seed = mixed(&[seed, round as u64, sums.number]);
                 let Found { indirect, escaped } = tracer.indirect(site, range.clone(), seed);
                 *sum += indirect;
                 sums.escaped += escaped;
             }
             sums
         };
-        let all = self.sums.par_iter().zip(self.sites).enumerate();
+        let all = self.sums.par_iter().zip(&self.sites);
         let lengthened: Option<Vec<Sums>> = watched(
             |enough| all.map(|site| (!enough.is_said()).then(|| longer(site))).collect(),
             go_on,
@@ -133,14 +147,22 @@ impl<'a> LightEstimate<'a> {
         [sums.reflectance * arriving, sums.reflectance * Rgb::from(error)]
     }
 
-    /// True inside something closed and without light.
-    pub(super) fn is_dark(&self, number: usize) -> bool {
-        let [radiosity, _] = self.radiosity(number);
-        radiosity == Rgb::ZERO && self.sums[number].escaped == 0
+    /// That of the scene, m.
+    pub(super) fn extent(&self) -> f64 {
+        self.tracer.surfaces.extent
+    }
+
+    /// Leaves out the places inside something closed and without light, and what `of_places` has of them.
+    pub(super) fn leave_out_dark<T>(&mut self, of_places: &mut Vec<T>) {
+        let is_dark = |k: usize| self.radiosity(k)[0] == Rgb::ZERO && self.sums[k].escaped == 0;
+        let dark: Vec<bool> = (0..self.sums.len()).map(is_dark).collect();
+        retain(of_places, &dark);
+        retain(&mut self.sites, &dark);
+        retain(&mut self.sums, &dark);
     }
 
     /// Root mean square of the standard errors over the mean radiosity.
-    fn noise(&self) -> f64 {
+    pub(super) fn noise(&self) -> f64 {
         let found = (0..self.sums.len()).map(|number| self.radiosity(number));
         let (light, square) = found.fold((0.0, 0.0), |(light, square), [radiosity, error]| {
             (light + radiosity.element_sum(), square + error.length_squared())
@@ -150,12 +172,18 @@ impl<'a> LightEstimate<'a> {
     }
 }
 
+/// Keeps those of a list that are not `left_out`.
+fn retain<T>(list: &mut Vec<T>, left_out: &[bool]) {
+    let mut left_out = left_out.iter();
+    list.retain(|_| left_out.next() == Some(&false));
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::compare::sample_points::area_sites;
     use crate::scene::load;
-    use crate::surface::{Surfaces, surfaces_of};
+    use crate::surface::{SurfaceId, Surfaces, surfaces_of};
 
     fn shipped(name: &str) -> Surfaces {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name);
@@ -166,17 +194,17 @@ mod tests {
     fn in_a_furnace_all_is_alike() {
         let surfaces = shipped("furnace.obj");
         let tracer = PathTracer::new(&surfaces);
-        let wall = |surface: usize, place: glam::DVec2| {
-            let plane = surfaces.list[surface].plane;
+        let wall = |surface: SurfaceId, place: glam::DVec2| {
+            let plane = surfaces[surface].plane;
             Site { surface, place: plane.lift(place), normal: plane.normal }
         };
-        let inside = |surface: usize| {
-            let ring = &surfaces.list[surface].rings[0];
+        let inside = |surface: SurfaceId| {
+            let ring = &surfaces[surface].rings[0];
             let middle = crate::geometry::polygon::centroid(ring);
             [0.0, 0.5, 0.97].map(|share| wall(surface, middle.lerp(ring[0], share)))
         };
-        let sites: Vec<Site> = (0..6).flat_map(inside).collect();
-        let mut estimate = LightEstimate::new(&tracer, &sites, 1);
+        let sites: Vec<Site> = surfaces.ids().flat_map(inside).collect();
+        let mut estimate = LightEstimate::new(&tracer, sites.clone(), 1);
         let _ = estimate.lengthen(64, || ControlFlow::Continue(()));
         for number in 0..sites.len() {
             // B = E / (1 - ρ) = 2, of which 1 is emitted.
@@ -193,7 +221,7 @@ mod tests {
         let sites: Vec<Site> =
             area_sites(&surfaces, 300, 1).into_iter().map(|placed| placed.site).collect();
         let found = [1, 2].map(|seed| {
-            let mut estimate = LightEstimate::new(&tracer, &sites, seed);
+            let mut estimate = LightEstimate::new(&tracer, sites.clone(), seed);
             let _ = estimate.lengthen(32, || ControlFlow::Continue(()));
             estimate
         });

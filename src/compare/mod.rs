@@ -1,7 +1,7 @@
 //! Uniform and adaptive meshes side by side: their errors against a reference, and what they cost.
 //!
 //! ```text
-//! Scene → Surfaces → Reference → a Run for each mesh → Verdict, ShadowProfile
+//! Scene → Surfaces → first Reference → a Run for each mesh → Reference that resolves their errors → Verdict, ShadowProfile
 //! ```
 //!
 //! One reference, one norm weighted by area, one tolerance of the solver, the same exact direct light and the same
@@ -10,7 +10,7 @@
 //! | what | where |
 //! |---|---|
 //! | what to compare | `plan` |
-//! | the truth | `reference`: `path_tracer` with `sobol` numbers at `sample_points`, refined by `estimate`; or read by `table`, `arrays` |
+//! | the truth | `reference`: `traced` by the `path_tracer` with `sobol` numbers at `sample_points`, refined by `estimate`; or read by `table`, `arrays`; in either case a `held_reference` |
 //! | one mesh | `run` in so much `memory`; `score` of what `locate` finds |
 //! | all of them | `comparison`: `curve` by family, `verdict`, `sentences`; a `profile` across a shadow |
 //! | told | `report`, `record` |
@@ -19,6 +19,7 @@ mod arrays;
 mod comparison;
 mod curve;
 mod estimate;
+mod held_reference;
 mod locate;
 mod memory;
 mod path_tracer;
@@ -33,6 +34,7 @@ mod score;
 mod sentences;
 mod sobol;
 mod table;
+mod traced;
 mod verdict;
 
 pub use comparison::{Comparison, ComparisonProgress, compare};

@@ -11,7 +11,7 @@ use crate::direct::Emitters;
 use crate::light::Direct;
 use crate::mesh::Mesh;
 use crate::settings::Settings;
-use crate::surface::{Surface, Surfaces};
+use crate::surface::{Surface, SurfaceId, Surfaces};
 use crate::visibility::{Met, Occluders, SurfacePoint};
 
 /// Steps of the R₂ sequence, which fills the unit square evenly ([Roberts 2018]): 1 / g and 1 / g², g³ = g + 1.
@@ -26,7 +26,7 @@ const SURVIVAL: f64 = 0.95;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Site {
     /// Index into [`Surfaces::list`].
-    pub surface: usize,
+    pub surface: SurfaceId,
     /// The place, m.
     pub place: DVec3,
     /// Unit normal.
@@ -68,7 +68,7 @@ impl<'a> PathTracer<'a> {
 
     /// Diffuse reflectance at a place, its texel included.
     pub(super) fn reflectance(&self, site: &Site) -> Rgb {
-        let surface = &self.surfaces.list[site.surface];
+        let surface = &self.surfaces[site.surface];
         let reflectance = surface.reflectance_at(surface.plane.flatten(site.place));
         reflectance * texel(self.surfaces, surface, site.place)
     }
@@ -102,11 +102,10 @@ impl<'a> PathTracer<'a> {
     /// What a ray meets first, and whether that is the front of a surface.
     fn meet(&self, place: DVec3, direction: DVec3) -> Option<(Site, bool)> {
         let Met { place, surface, front } = self.occluders.first(place, direction)?;
-        // The two sides of a double-sided polygon stand one behind the other.
-        let other = !front && self.surfaces[surface].two_sided;
-        let surface = surface.index() + usize::from(other);
-        let normal = self.surfaces.list[surface].plane.normal;
-        Some((Site { surface, place, normal }, front || other))
+        let other = if front { None } else { self.surfaces.other_side(surface) };
+        let surface = other.unwrap_or(surface);
+        let normal = self.surfaces[surface].plane.normal;
+        Some((Site { surface, place, normal }, front || other.is_some()))
     }
 
     /// Radiosity by reflection at a place and along one path from it, W/m²; emission is not part of it.

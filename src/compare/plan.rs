@@ -127,7 +127,7 @@ impl ComparisonPlan {
             return Err(setting("error", "the error to compare at must be above zero"));
         }
         if let ReferenceSource::Traced(Effort { noise, area_points, .. }) = self.reference
-            && !(noise > 0.0 && area_points > 0)
+            && !(noise.is_none_or(|noise| noise > 0.0) && area_points > 0)
         {
             return Err(setting("noise", "noise and number of places must be above zero"));
         }

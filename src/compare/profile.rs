@@ -3,16 +3,18 @@
 use std::ops::ControlFlow;
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::estimate::{LightEstimate, ROUNDS};
 use super::locate::Locator;
 use super::path_tracer::{PathTracer, Site};
-use super::reference::{Point, Reference, Set, is_open};
+use super::reference::{Point, Reference, Set};
 use super::run::Lit;
+use super::traced::is_open;
 use crate::colour::luminance;
 use crate::geometry::polygon::{Line, contains, edges};
-use crate::surface::{Surface, Surfaces};
+use crate::surface::{Surface, SurfaceId, Surfaces};
 use crate::watch::in_batches;
 
 /// Places along the line.
@@ -36,6 +38,9 @@ const PROFILE_SEED: u64 = 2;
 /// Share of the work that is done once the line is found.
 const FOUND: f64 = 0.5;
 
+/// Lines that are cut to what is on their surface at a time.
+const CUT_TOGETHER: usize = 16;
+
 /// Step at which an edge must be smooth, as a share of the extent.
 const SCALE: f64 = 2e-3;
 
@@ -46,7 +51,7 @@ const SMOOTH: f64 = 1.5;
 #[derive(Clone, Debug, Serialize)]
 pub struct ShadowProfile {
     /// The surface, an index into [`Surfaces::list`].
-    pub surface: usize,
+    pub surface: SurfaceId,
     /// Its ends, m.
     pub ends: [[f64; 3]; 2],
     /// Width of the penumbra across which it runs, m.
@@ -86,6 +91,14 @@ struct Penumbra {
     contrast: f64,
 }
 
+/// A place at which a line may cross a penumbra.
+struct Crossing {
+    edge: ShadowEdge,
+    penumbra: Penumbra,
+    /// What the line would be worth if it were not cut short, W/m².
+    most_worth: f64,
+}
+
 /// A line across a penumbra.
 struct Transect {
     site: Site,
@@ -99,15 +112,15 @@ struct Transect {
 impl ShadowProfile {
     /// Across the smooth edge of a shadow on a large surface at which most light goes; `None` if there is none, or
     /// `observe`, told of the share done, breaks off.
-    pub fn find(
-        surfaces: &Surfaces,
+    pub(super) fn find(
+        tracer: &PathTracer<'_>,
         reference: &Reference,
         paths: usize,
         observe: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Option<Self> {
-        let tracer = PathTracer::new(surfaces);
-        let Transect { site, penumbra, ends, .. } = best(&tracer, reference, observe)?;
-        let surface = &surfaces.list[site.surface];
+        let surfaces = tracer.surfaces;
+        let Transect { site, penumbra, ends, .. } = best(tracer, reference, observe)?;
+        let surface = &surfaces[site.surface];
         let length = ends[0].distance(ends[1]);
         let at: Vec<f64> = (0..PLACES).map(|k| length * k as f64 / (PLACES - 1) as f64).collect();
         let site_at = |&at: &f64| {
@@ -115,7 +128,7 @@ impl ShadowProfile {
             Site { place, ..site }
         };
         let sites: Vec<Site> = at.iter().map(site_at).collect();
-        let mut estimate = LightEstimate::new(&tracer, &sites, PROFILE_SEED);
+        let mut estimate = LightEstimate::new(tracer, sites, PROFILE_SEED);
         let paths = (paths / ROUNDS).max(1) as u32;
         estimate.lengthen(paths, || observe(FOUND)).continue_value()?;
         let found: Vec<[f64; 2]> =
@@ -132,7 +145,7 @@ impl ShadowProfile {
 
     /// The line as a mesh has it.
     pub fn trace(&self, surfaces: &Surfaces, lit: &Lit) -> Trace {
-        let Surface { plane, .. } = &surfaces.list[self.surface];
+        let Surface { plane, .. } = &surfaces[self.surface];
         let ends = self.ends.map(DVec3::from);
         let length = ends[0].distance(ends[1]);
         let locator = Locator::new(&lit.mesh, surfaces.extent);
@@ -144,7 +157,7 @@ impl ShadowProfile {
         let start = plane.flatten(ends[0]);
         let along = (plane.flatten(ends[1]) - start).normalize_or_zero();
         let mesh = &lit.solution.mesh;
-        let outlines = mesh.leaves().filter(|&leaf| mesh.surface_of(leaf).index() == self.surface);
+        let outlines = mesh.leaves().filter(|&leaf| mesh.surface_of(leaf) == self.surface);
         let mut ticks: Vec<f64> = outlines
             .flat_map(|leaf| edges(&mesh.outline(leaf)).collect::<Vec<_>>())
             .filter_map(|[a, b]| {
@@ -169,39 +182,58 @@ fn best(
     let surfaces = tracer.surfaces;
     let largest = surfaces.list.iter().map(Surface::area).fold(0.0, f64::max);
     let shadow: Vec<_> = reference.points.iter().filter(|point| point.set == Set::Shadow).collect();
-    let transect = |(): &mut (), point: &&Point| {
+    let crossing = |(): &mut (), point: &&Point| {
         let surface = surface_at(surfaces, point.place, point.normal)?;
-        let large = surfaces.list[surface].area() >= LARGE * largest;
+        let large = surfaces[surface].area() >= LARGE * largest;
         let site = Site { surface, place: point.place, normal: point.normal };
-        large.then(|| transect(tracer, &site)).flatten()
+        large.then(|| crossing(tracer, &site)).flatten()
     };
-    let found: Vec<Option<Transect>> =
-        in_batches(&shadow, |_| (), transect, |done| observe(FOUND * done));
+    let found: Vec<Option<Crossing>> =
+        in_batches(&shadow, |_| (), crossing, |done| observe(FOUND * done));
     if found.len() < shadow.len() {
         return None;
     }
-    found
-        .into_iter()
-        .flatten()
-        .reduce(|best, next| if next.worth > best.worth { next } else { best })
+    let mut crossings: Vec<Crossing> = found.into_iter().flatten().collect();
+    crossings.sort_by(|a, b| b.most_worth.total_cmp(&a.most_worth));
+    let better = |best: Transect, next: Transect| if next.worth > best.worth { next } else { best };
+    let mut best: Option<Transect> = None;
+    // To cut lines takes long, and only makes them worth less: those left cannot be better.
+    for some in crossings.chunks(CUT_TOGETHER) {
+        if best.as_ref().is_some_and(|best| some[0].most_worth <= best.worth) {
+            break;
+        }
+        observe(FOUND).continue_value()?;
+        let cut: Vec<Option<Transect>> =
+            some.par_iter().map(|crossing| transect(tracer, crossing)).collect();
+        best = best.into_iter().chain(cut.into_iter().flatten()).reduce(better);
+    }
+    best
 }
 
-/// The line across the soft edge at a place, if there is one; where light jumps there is no penumbra.
-fn transect(tracer: &PathTracer<'_>, site: &Site) -> Option<Transect> {
+/// The soft edge at a place, if there is one; where light jumps there is no penumbra.
+fn crossing(tracer: &PathTracer<'_>, site: &Site) -> Option<Crossing> {
     let edge = edge(tracer, site, SCALE * tracer.surfaces.extent)?;
     let penumbra = penumbra(tracer, &edge)?;
-    let middle = tracer.surfaces.list[site.surface].plane.flatten(site.place);
+    let all = luminance(tracer.direct(site).unoccluded);
+    Some(Crossing { most_worth: penumbra.contrast * all, edge, penumbra })
+}
+
+/// The line across a soft edge.
+fn transect(tracer: &PathTracer<'_>, crossing: &Crossing) -> Option<Transect> {
+    let Crossing { edge, penumbra, most_worth } = crossing;
+    let site = &edge.site;
+    let middle = tracer.surfaces[site.surface].plane.flatten(site.place);
     let along = edge.direction * (WIDTHS * penumbra.width / 2.0);
     let ends = clipped(tracer, site, middle + edge.direction * penumbra.centre, along)?;
     let whole = ends[0].distance(ends[1]) / (2.0 * along.length());
-    let all = luminance(tracer.direct(site).unoccluded);
-    Some(Transect { site: *site, penumbra, ends, worth: penumbra.contrast * all * whole })
+    Some(Transect { site: *site, penumbra: *penumbra, ends, worth: most_worth * whole })
 }
 
 /// The surface that a place is on.
-fn surface_at(surfaces: &Surfaces, place: DVec3, normal: DVec3) -> Option<usize> {
+fn surface_at(surfaces: &Surfaces, place: DVec3, normal: DVec3) -> Option<SurfaceId> {
     let slack = 1e-4 * surfaces.extent;
-    surfaces.list.iter().position(|surface| {
+    surfaces.ids().find(|&id| {
+        let surface = &surfaces[id];
         surface.plane.normal.dot(normal) > 0.9
             && surface.plane.height(place).abs() <= slack
             && contains(&surface.rings, surface.plane.flatten(place))
@@ -220,7 +252,7 @@ fn edge(tracer: &PathTracer<'_>, site: &Site, step: f64) -> Option<ShadowEdge> {
 
 /// Change of the visible share of lamps, times what they would send, on the plane of a place, W/m³.
 fn gradient(tracer: &PathTracer<'_>, site: &Site, step: f64) -> Option<DVec2> {
-    let surface = &tracer.surfaces.list[site.surface];
+    let surface = &tracer.surfaces[site.surface];
     let middle = surface.plane.flatten(site.place);
     let visible = |offset: DVec2| visible(tracer, site, middle + offset);
     let along = |axis: DVec2| Some((visible(axis * step)? - visible(-axis * step)?) / (2.0 * step));
@@ -230,14 +262,14 @@ fn gradient(tracer: &PathTracer<'_>, site: &Site, step: f64) -> Option<DVec2> {
 
 /// Share of the lamps that is seen from a place on a site's surface; `None` off the surface.
 fn visible(tracer: &PathTracer<'_>, site: &Site, at: DVec2) -> Option<f64> {
-    let surface = &tracer.surfaces.list[site.surface];
+    let surface = &tracer.surfaces[site.surface];
     let place = surface.plane.lift(at);
     contains(&surface.rings, at).then(|| tracer.direct(&Site { place, ..*site }).visible())
 }
 
 /// The penumbra that a place is in: from it both ways along the edge's direction, while light rises or falls.
 fn penumbra(tracer: &PathTracer<'_>, edge: &ShadowEdge) -> Option<Penumbra> {
-    let surface = &tracer.surfaces.list[edge.site.surface];
+    let surface = &tracer.surfaces[edge.site.surface];
     let middle = surface.plane.flatten(edge.site.place);
     let step = STEP * tracer.surfaces.extent;
     let seen = |k: usize, sign: f64| {
@@ -267,7 +299,7 @@ fn clipped(
     middle: DVec2,
     along: DVec2,
 ) -> Option<[DVec2; 2]> {
-    let surface = &tracer.surfaces.list[site.surface];
+    let surface = &tracer.surfaces[site.surface];
     let reach = |direction: DVec2| {
         let inside = |share: f64| {
             let at = middle + direction * share;

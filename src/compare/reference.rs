@@ -1,30 +1,12 @@
 //! Radiosity at fixed places that no mesh has had a part in, and how sure it is.
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::time::Instant;
 
 use glam::DVec3;
-use rayon::prelude::*;
 use serde::Serialize;
 
-use super::estimate::{Effort, LightEstimate, ROUNDS};
-use super::path_tracer::{PathTracer, Site};
-use super::sample_points::{PointGrid, REACH, area_sites, shadow_sites};
+use super::sample_points::{PointGrid, REACH};
 use crate::colour::Rgb;
-use crate::error::{Error, Result};
-use crate::geometry::polygon::contains;
-use crate::surface::{Surface, Surfaces};
-
-/// A place sees the inside of a solid if more than this share of what it sees is the backs of surfaces.
-const BURIED: f64 = 0.6;
-
-/// Paths that look whether a place is inside a solid.
-const LOOKS: u32 = 256;
-
-/// What is said of a scene in which there is nothing to compare.
-const NOTHING: &str =
-    "no surface reflects light without emitting some: there is nothing to compare";
 
 /// Which of the two sets a place belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -86,43 +68,6 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// Direct light exactly, reflected light by paths, at places drawn from the scene; `observe` is told how
-    /// much is done, 0..=1, and may break off: then what has been found so far will do, if there is any.
-    ///
-    /// B = E + ρ (direct + indirect); indirect = the mean, over directions as many as their cosine, of what
-    /// leaves by reflection the places that they meet. The error is that of the mean of the rounds. Where direct
-    /// light has too much in its way to be exact, its own small error is not part of it.
-    ///
-    /// # Errors
-    /// When no place of the scene reflects light, or it is broken off before anything has been found.
-    pub fn trace(
-        surfaces: &Surfaces,
-        effort: &Effort,
-        observe: &mut dyn FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<Self> {
-        let start = Instant::now();
-        let tracer = PathTracer::new(surfaces);
-        let (sites, weights) = places(&tracer, effort);
-        let mut estimate = LightEstimate::new(&tracer, &sites, effort.seed);
-        estimate.run(effort, observe);
-        if estimate.paths == 0 {
-            return Err(Error::Scene("stopped before there was a reference".to_owned()));
-        }
-        let points: Vec<Point> = (0..sites.len())
-            .filter(|&k| !estimate.is_dark(k))
-            .map(|k| {
-                let [radiosity, error] = estimate.radiosity(k);
-                let Site { place, normal, .. } = sites[k];
-                let (set, weight) = weights[k];
-                Point { place, normal, radiosity, error, set, weight }
-            })
-            .collect();
-        let (rounds, seconds) = (ROUNDS, start.elapsed().as_secs_f64());
-        let paths = rounds * estimate.paths as usize;
-        Self::new(points, Origin::Traced { rounds, paths, seconds }, surfaces.extent)
-            .ok_or_else(|| Error::Scene(NOTHING.to_owned()))
-    }
-
     /// A reference of these points in a scene of this extent, m; `None` without a lit place in the area set.
     pub fn new(mut points: Vec<Point>, origin: Origin, extent: f64) -> Option<Self> {
         points.sort_by_key(|point| point.set == Set::Shadow);
@@ -147,38 +92,6 @@ impl Reference {
         let light: f64 = chosen().map(|p| p.weight * p.radiosity.element_sum() / 3.0).sum();
         if light > 0.0 { (square / weight).sqrt() / (light / weight) } else { 0.0 }
     }
-}
-
-/// The places of both sets that are not inside solids, with their sets and weights.
-fn places(tracer: &PathTracer<'_>, effort: &Effort) -> (Vec<Site>, Vec<(Set, f64)>) {
-    let area = area_sites(tracer.surfaces, effort.area_points, effort.seed).into_iter();
-    let shadow = shadow_sites(tracer, effort.shadow_points, effort.seed).into_iter();
-    let area = area.map(|placed| (placed.site, (Set::Area, placed.area)));
-    let all: Vec<_> = area.chain(shadow.map(|site| (site, (Set::Shadow, 1.0)))).collect();
-    all.into_par_iter().filter(|(site, _)| is_open(tracer, site)).unzip()
-}
-
-/// True if a site is not inside a solid.
-pub(super) fn is_open(tracer: &PathTracer<'_>, site: &Site) -> bool {
-    !is_covered(tracer.surfaces, site) && tracer.backs(site, LOOKS) <= BURIED
-}
-
-/// True where another surface lies face to face on a site's own, as the bottom of a box that stands on a floor.
-fn is_covered(surfaces: &Surfaces, site: &Site) -> bool {
-    let own = &surfaces.list[site.surface];
-    // The other side of a double-sided polygon is in the same place, back to back.
-    let is_partner = |number: usize, other: &Surface| {
-        own.two_sided
-            && other.two_sided
-            && own.is_back != other.is_back
-            && number == if own.is_back { site.surface - 1 } else { site.surface + 1 }
-    };
-    surfaces.list.iter().enumerate().any(|(number, other)| {
-        other.plane.normal.dot(site.normal) < -0.999
-            && other.plane.height(site.place).abs() <= 5.0 * surfaces.epsilon
-            && !is_partner(number, other)
-            && contains(&other.rings, other.plane.flatten(site.place))
-    })
 }
 
 /// Which points are of the shadow set or, facing the same way, near one that is.

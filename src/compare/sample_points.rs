@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::path_tracer::{PathTracer, R2, Site};
 use super::sobol::mixed;
 use crate::geometry::cut::{Cuts, convex_pieces};
-use crate::surface::Surfaces;
+use crate::surface::{SurfaceId, Surfaces};
 
 /// Places among which those in steep shadow are looked for.
 const CANDIDATES: usize = 60_000;
@@ -31,7 +31,7 @@ const FLAT: f64 = 0.02;
 
 /// A triangle of a surface whose light can be told.
 struct SampleTriangle {
-    surface: usize,
+    surface: SurfaceId,
     corners: [DVec2; 3],
     area: f64,
 }
@@ -69,10 +69,10 @@ pub(super) fn shadow_sites(tracer: &PathTracer<'_>, count: usize, seed: u64) -> 
 
 /// The surfaces that reflect and do not outshine that, in triangles.
 fn sample_triangles(surfaces: &Surfaces) -> Vec<SampleTriangle> {
-    let shown = surfaces.list.iter().enumerate();
+    let shown = surfaces.ids().map(|id| (id, &surfaces[id]));
     let shown = shown.filter(|(_, s)| s.reflects() && !s.is_emitter());
     let cuts = Cuts { segments: &[], size: f64::INFINITY, epsilon: surfaces.epsilon };
-    let fan = |(surface, ring): (usize, Vec<DVec2>)| {
+    let fan = |(surface, ring): (SurfaceId, Vec<DVec2>)| {
         (1..ring.len() - 1)
             .map(move |k| {
                 let corners = [ring[0], ring[k], ring[k + 1]];
@@ -106,7 +106,7 @@ fn spread(
         given = due;
         let shift = DVec2::new(random.f64(), random.f64());
         let [a, b, c] = triangle.corners;
-        let plane = &surfaces.list[triangle.surface].plane;
+        let plane = &surfaces[triangle.surface].plane;
         placed.extend((0..own).map(|k| {
             let mut at = (shift + R2 * k as f64).fract();
             if at.element_sum() > 1.0 {
@@ -132,12 +132,12 @@ fn steepness(tracer: &PathTracer<'_>, sites: &[Site]) -> Vec<f64> {
         })
         .collect();
     let reach = REACH * tracer.surfaces.extent;
-    let near = PointGrid::new(sites.iter().map(|site| (site.place, site.surface)), reach);
+    let near = PointGrid::new(sites.iter().map(|site| (site.place, site.surface.index())), reach);
     let slope = |number: usize| {
         let (visible, all) = (seen[number].0?, seen[number].1);
         let at = &sites[number];
         let mut around: Vec<(f64, usize)> = near
-            .around(at.place, at.surface)
+            .around(at.place, at.surface.index())
             .map(|other| (sites[other].place.distance(at.place), other))
             .filter(|&(distance, other)| distance <= reach && other != number)
             .collect();

@@ -86,7 +86,10 @@ pub struct Score {
     pub rest: ErrorStatistics,
     /// Places that no triangle is near; they count as black.
     pub unmatched: usize,
-    /// By point of the reference: radiosity of the mesh minus the reference's, W/m².
+    /// By point of the reference: radiosity of the mesh, W/m²; `None` where no triangle is near.
+    #[serde(skip)]
+    pub found: Vec<Option<Rgb>>,
+    /// The same minus the reference's.
     #[serde(skip)]
     pub signed: Vec<Rgb>,
 }
@@ -100,32 +103,36 @@ impl Score {
             Band::Rest => &self.rest,
         }
     }
+
+    /// Of a mesh with these radiosities, W/m², at the points of the reference, in their order; `None` where it has no
+    /// triangle.
+    pub fn new(reference: &Reference, found: Vec<Option<Rgb>>) -> Self {
+        let points = &reference.points;
+        let signed: Vec<Rgb> =
+            found.iter().zip(points).map(|(b, p)| b.unwrap_or(Rgb::ZERO) - p.radiosity).collect();
+        let errors = |chosen: &dyn Fn(usize) -> bool| {
+            let chosen = (0..points.len()).filter(|&k| chosen(k));
+            let deviation = |k: usize| Deviation { point: &points[k], excess: signed[k] };
+            errors(&chosen.map(deviation).collect::<Vec<_>>())
+        };
+        let is = |set: Set| move |k: usize| points[k].set == set;
+        Self {
+            all: errors(&is(Set::Area)),
+            shadow: errors(&is(Set::Shadow)),
+            rest: errors(&|k| points[k].set == Set::Area && !reference.in_band[k]),
+            unmatched: found.iter().filter(|b| b.is_none()).count(),
+            found,
+            signed,
+        }
+    }
 }
 
 /// The errors of the mesh of a scene of this extent, m, at the places of a reference.
 pub fn score(reference: &Reference, mesh: &TriMesh, extent: f64) -> Score {
     let locator = Locator::new(mesh, extent);
-    let points = &reference.points;
-    let found: Vec<Option<Rgb>> = points
-        .par_iter()
-        .map(|point| locator.radiosity(point.place, point.normal).filter(|b| b.is_finite()))
-        .collect();
-    let signed: Vec<Rgb> =
-        found.iter().zip(points).map(|(b, p)| b.unwrap_or(Rgb::ZERO) - p.radiosity).collect();
-    let errors = |chosen: &dyn Fn(usize) -> bool| {
-        let chosen = (0..points.len()).filter(|&k| chosen(k));
-        errors(
-            &chosen.map(|k| Deviation { point: &points[k], excess: signed[k] }).collect::<Vec<_>>(),
-        )
-    };
-    let is = |set: Set| move |k: usize| points[k].set == set;
-    Score {
-        all: errors(&is(Set::Area)),
-        shadow: errors(&is(Set::Shadow)),
-        rest: errors(&|k| points[k].set == Set::Area && !reference.in_band[k]),
-        unmatched: found.iter().filter(|b| b.is_none()).count(),
-        signed,
-    }
+    let find =
+        |point: &Point| locator.radiosity(point.place, point.normal).filter(|b| b.is_finite());
+    Score::new(reference, reference.points.par_iter().map(find).collect())
 }
 
 /// A place of the reference, and what the mesh has too much there.

@@ -2,10 +2,27 @@
 
 use std::fmt::{self, Display, Formatter};
 
+use super::comparison::Comparison;
 use super::curve::Needed;
 use super::run::Family;
 use super::score::Band;
 use super::verdict::{AtEqualCost, AtEqualError, BandVerdict, Cost, LAWS, Verdict, Winner};
+
+impl Comparison {
+    /// That it was stopped early, if it was, and what there is all the same.
+    pub fn stopped(&self) -> Option<String> {
+        let runs = match self.runs.len() {
+            1 => "1 run that was".to_owned(),
+            count => format!("{count} runs that were"),
+        };
+        self.interrupted.then(|| {
+            format!(
+                "Stopped before the end: here is what came of the {runs} done, against a reference as exact as it was \
+                 by then."
+            )
+        })
+    }
+}
 
 impl Verdict {
     /// Two sentences about all surfaces: at equal error, and at equal cost.
@@ -85,34 +102,33 @@ impl BandVerdict {
         let judged = match at.winner(self.floor) {
             Winner::Tie => " (a tie)",
             Winner::Unknown => " (unresolved)",
-            Winner::One(_) => "",
+            Winner::One(Family::Uniform) => " (adaptive lost)",
+            Winner::One(Family::Adaptive) => "",
         };
         let (amount, unit) = (number(at.amount), at.cost.name());
         format!("{amount} {unit} the error is {adaptive} adaptive and {uniform} uniform{judged}")
     }
 }
 
-/// Who wins, in the first words.
+/// How adaptive has fared in elements and in time, in the first words.
 fn lead(elements: Winner, seconds: Winner) -> String {
     use Winner::{One, Tie, Unknown};
+    let fared = |winner: Winner, what: &str| match winner {
+        One(Family::Adaptive) => Some(format!("won in {what}")),
+        One(Family::Uniform) => Some(format!("lost in {what}")),
+        Tie => Some(format!("tied in {what}")),
+        Unknown => None,
+    };
     match (elements, seconds) {
-        (One(a), One(b)) if a == b => format!("{} wins", capital(a)),
+        (One(Family::Adaptive), One(Family::Adaptive)) => "Adaptive wins".to_owned(),
+        (One(Family::Uniform), One(Family::Uniform)) => "Adaptive lost".to_owned(),
         (Tie, Tie) => "A tie".to_owned(),
-        (Unknown, _) => "Undecided".to_owned(),
-        (Tie, Unknown) => "A tie in elements".to_owned(),
-        (One(fewer), Unknown) => format!("{} needs fewer elements", capital(fewer)),
-        (One(fewer), Tie) => format!("{} needs fewer elements, as much time", capital(fewer)),
-        (Tie, One(faster)) => format!("{} takes less time, as many elements", capital(faster)),
-        (One(fewer), One(faster)) => {
-            format!("{} needs fewer elements, {} less time", capital(fewer), faster.name())
+        (Unknown, Unknown) => "Undecided".to_owned(),
+        _ => {
+            let known = [fared(elements, "elements"), fared(seconds, "time")];
+            let known: Vec<String> = known.into_iter().flatten().collect();
+            format!("Adaptive {}", known.join(" and "))
         }
-    }
-}
-
-fn capital(family: Family) -> &'static str {
-    match family {
-        Family::Uniform => "Uniform",
-        Family::Adaptive => "Adaptive",
     }
 }
 
@@ -122,6 +138,12 @@ fn amount(needed: Needed) -> String {
         Needed::AtMost(amount) => format!("at most {}", number(amount)),
         Needed::NotReached => "not reached".to_owned(),
     }
+}
+
+/// A name as the first of a line.
+pub(super) fn capital(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// How many times as much uniform needs, if that can be told.

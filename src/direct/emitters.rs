@@ -30,7 +30,7 @@ impl Emitters {
         for &facet in globes.iter().flat_map(|globe| &globe.surfaces) {
             in_globe[facet.index()] = true;
         }
-        let emitters = (0..surfaces.list.len() as u32).map(SurfaceId);
+        let emitters = surfaces.ids();
         let emitters = emitters.filter(|&id| surfaces[id].is_emitter() && !in_globe[id.index()]);
         let mut areas: Vec<AreaEmitter> =
             emitters.flat_map(|id| areas_of(surfaces, mesh, id)).collect();

@@ -45,7 +45,7 @@ pub(super) fn globes(surfaces: &Surfaces) -> Vec<Globe> {
         let material = &surfaces[surface.material];
         surface.is_emitter() && material.emission_texture.is_none() && surface.rings.len() == 1
     };
-    let ids = (0..surfaces.list.len() as u32).map(SurfaceId);
+    let ids = surfaces.ids();
     let glowing: Vec<SurfaceId> = ids.filter(|&id| is_glowing(&surfaces[id])).collect();
     let outline = |&id: &SurfaceId| {
         let surface = &surfaces[id];

@@ -43,7 +43,7 @@ impl Mesh {
             limit: settings.max_elements.unwrap_or(usize::MAX),
             is_full: false,
         };
-        let ids: Vec<SurfaceId> = (0..surfaces.list.len() as u32).map(SurfaceId).collect();
+        let ids: Vec<SurfaceId> = surfaces.ids().collect();
         for ids in ids.chunks(AT_ONCE) {
             let pieces = |&id: &SurfaceId| mesh.index.pieces(surfaces, id, settings);
             let pieces: Vec<Vec<PatchOutline>> = ids.par_iter().map(pieces).collect();

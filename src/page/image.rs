@@ -22,10 +22,25 @@ pub fn columns(items: &[Markup]) -> Markup {
     }
 }
 
-/// The same, three where there is room.
-pub fn thirds(items: &[Markup]) -> Markup {
+/// Things side by side, two of them however narrow the page.
+pub fn halves(items: &[Markup; 2]) -> Markup {
     html! {
-        div.columns.thirds { @for item in items { div { (item) } } }
+        div.halves { @for item in items { div { (item) } } }
+    }
+}
+
+/// Things side by side where the page is wide enough, else in a strip that scrolls.
+pub fn strip(items: &[Markup]) -> Markup {
+    html! {
+        div.row tabindex="0" { @for item in items { div { (item) } } }
+    }
+}
+
+/// Pairs side by side, each below the other, where the page is wide enough; else pairs below each other, each side by
+/// side.
+pub fn pairs(pairs: &[[Markup; 2]]) -> Markup {
+    html! {
+        div.pairs { @for item in pairs.iter().flatten() { div { (item) } } }
     }
 }
 

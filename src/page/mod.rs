@@ -6,7 +6,9 @@
 //! | [`wipe()`] | pictures on top of each other, a border to drag between two of them | side by side |
 //! | [`table()`] | rows sort by a click on a header; download as CSV | a table |
 //! | [`plot()`] | curves on axes | the same |
-//! | [`facts`], [`picture`], [`columns`], [`thirds`] | | the same |
+//! | [`sections`] | parts under headings, and contents that lead to them | the same |
+//! | [`folded`] | what few look for, unfolded by a click | the same |
+//! | [`board()`], [`facts`], [`picture`], [`columns`], [`halves`], [`strip`], [`pairs`] | | the same |
 //! | [`data()`] | JSON for whoever reads the page by program | |
 //!
 //! [`document()`] makes a page of them, [`save`] writes it. A page opens from a disk, asks for nothing
@@ -15,7 +17,7 @@
 //! | what | where |
 //! |---|---|
 //! | whole pages | `document`, `data` |
-//! | without scripts | `table`, `plot`, `image` |
+//! | without scripts | `section`, `table`, `plot` on axes of `axis_spec`, `image` |
 //! | with scripts | `wipe`, `viewer` |
 //! | what a viewer shows | `model`: numbers by `quantise` on scales of `bulk` and in `colour_maps`, runs by `textured`, `pictures` |
 //! | as bytes | `chunks`, in `base64` |
@@ -29,6 +31,7 @@
 //! assert!(page.into_string().starts_with("<!DOCTYPE html>"));
 //! ```
 
+mod axis_spec;
 mod base64;
 mod bulk;
 mod chunks;
@@ -40,6 +43,7 @@ mod model;
 mod pictures;
 mod plot;
 mod quantise;
+mod section;
 mod table;
 mod textured;
 mod viewer;
@@ -47,10 +51,11 @@ mod wipe;
 
 pub use data::data;
 pub use document::{check_writable, document, save};
-pub use image::{columns, picture, thirds};
+pub use image::{columns, halves, pairs, picture, strip};
 pub use maud::{Markup, html};
 pub use model::Model;
-pub use plot::{Axis, Curve, Plot, Stroke, plot};
-pub use table::{Cell, Fact, Table, facts, table};
+pub use plot::{Axis, CURVE_COLOURS, Curve, Plot, Stroke, plot};
+pub use section::{Section, folded, sections};
+pub use table::{Board, BoardRow, Cell, Fact, Table, board, facts, table};
 pub use viewer::{Step, Viewer, viewer};
 pub use wipe::{WipePicture, wipe};

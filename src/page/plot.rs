@@ -1,20 +1,35 @@
 //! Curves on axes, as SVG that any browser shows with its own letters.
 
 use std::error::Error;
-use std::ops::Range;
 
 use maud::{Markup, PreEscaped, html};
 use plotters::chart::ChartContext;
 use plotters::coord::Shift;
-use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
-use plotters::element::DashedPathElement;
+use plotters::element::{ComposedElement, DashedPathElement};
 use plotters::prelude::*;
 
-/// How far the axes of logarithmic scales reach beyond the points, as a factor.
-const MARGIN: f64 = 1.3;
+use super::axis_spec::AxisSpec;
+use crate::render::map::short_number;
+
+/// Colours for curves, sRGB-coded: orange, blue and grey, which the colour-blind tell apart. In the dark scheme pages
+/// brighten them; others stay as they are.
+pub const CURVE_COLOURS: [[u8; 3]; 3] = [[213, 94, 0], [0, 114, 178], [120; 3]];
 
 /// Height of a row of ticks as a share of the plot's.
 const TICK: f64 = 0.035;
+
+/// Pixels that a number takes along the axis across, and along the one up.
+const ROOM: [u32; 2] = [44, 34];
+
+/// Size of letters, pixels, and the mean width of one.
+const LETTERS: i32 = 13;
+const LETTER_WIDTH: f64 = 6.6;
+
+/// Height of a row of the legend, length of the line before a name, and the gaps behind that and behind the name,
+/// pixels.
+const ROW: i32 = 22;
+const SAMPLE: i32 = 22;
+const GAPS: [i32; 2] = [6, 16];
 
 /// An axis.
 #[derive(Clone, Copy, Debug)]
@@ -70,8 +85,10 @@ pub struct Plot<'a> {
 pub fn plot(plot: &Plot<'_>, alt: &str) -> Markup {
     // Within HTML the drawing needs neither a size nor the name of its language.
     let svg = plot.svg().replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1);
+    // Letters that are much enlarged are too large.
+    let style = format!("max-width: {}px", plot.size[0] * 6 / 5);
     html! {
-        figure.plot role="img" aria-label=(alt) { (PreEscaped(svg)) }
+        figure.plot role="img" aria-label=(alt) style=(style) { (PreEscaped(svg)) }
     }
 }
 
@@ -84,91 +101,81 @@ impl Plot<'_> {
     }
 
     fn draw(&self, svg: &mut String) -> Result<(), Box<dyn Error>> {
-        let Some((across, up)) = self.range(self.across, |p| p.0).zip(self.range(self.up, |p| p.1))
-        else {
-            return Ok(());
-        };
+        let across = self.spec(self.across, |p| p.0, self.size[0] / ROOM[0]);
+        let up = self.spec(self.up, |p| p.1, self.size[1] / ROOM[1]);
+        let Some((across, up)) = across.zip(up) else { return Ok(()) };
         let area = SVGBackend::with_string(svg, self.size.into()).into_drawing_area();
         area.fill(&WHITE)?;
-        match (self.across.logarithmic, self.up.logarithmic) {
-            (true, true) => self.draw_on(&area, across.log_scale(), up.log_scale())?,
-            (true, false) => self.draw_on(&area, across.log_scale(), up)?,
-            (false, true) => self.draw_on(&area, across, up.log_scale())?,
-            (false, false) => self.draw_on(&area, across, up)?,
-        }
-        area.present()?;
-        Ok(())
-    }
-
-    /// From the least to the greatest value of all points, with some air.
-    fn range(&self, axis: Axis<'_>, of: impl Fn(&(f64, f64)) -> f64) -> Option<Range<f64>> {
-        let ticks = |curve: &&Curve| !matches!(curve.stroke, Stroke::Ticks(_));
-        let values = self.curves.iter().filter(ticks).flat_map(|curve| &curve.points).map(of);
-        let sound = |x: &f64| x.is_finite() && (*x > 0.0 || !axis.logarithmic);
-        let (low, high) = values
-            .filter(sound)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        (low <= high).then(|| match axis.logarithmic {
-            true => low / MARGIN..high * MARGIN,
-            false => low.min(0.0)..(high.max(low + f64::MIN_POSITIVE)) * 1.05,
-        })
-    }
-
-    fn draw_on<X, Y>(
-        &self,
-        area: &DrawingArea<SVGBackend<'_>, Shift>,
-        across: X,
-        up: Y,
-    ) -> Result<(), Box<dyn Error>>
-    where
-        X: AsRangedCoord<Value = f64>,
-        Y: AsRangedCoord<Value = f64>,
-        X::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
-        Y::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
-    {
-        let mut chart = ChartBuilder::on(area)
-            .margin(12)
-            .x_label_area_size(40)
-            .y_label_area_size(58)
+        let (_, below) = area.split_vertically(self.draw_legend(&area)?);
+        let mut chart = ChartBuilder::on(&below)
+            .margin_top(4)
+            .margin_right(14)
+            .x_label_area_size(42)
+            .y_label_area_size(46)
             .build_cartesian_2d(across, up)?;
         chart
             .configure_mesh()
             .light_line_style(TRANSPARENT)
             .bold_line_style(BLACK.mix(0.12))
-            .x_labels(labels(self.across))
-            .y_labels(labels(self.up))
+            .axis_style(BLACK.mix(0.4))
             .x_desc(self.across.name)
-            .y_desc(self.up.name)
-            .x_label_formatter(&|x| label(self.across, *x))
-            .y_label_formatter(&|y| label(self.up, *y))
-            .label_style(("sans-serif", 13))
+            .x_label_formatter(&|x| short_number(*x))
+            .y_label_formatter(&|y| short_number(*y))
+            .label_style(("sans-serif", LETTERS))
             .draw()?;
         for curve in &self.curves {
             self.draw_curve(&mut chart, curve)?;
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .legend_area_size(30)
-            .label_font(("sans-serif", 13))
-            .background_style(WHITE.mix(0.85))
-            .border_style(BLACK.mix(0.3))
-            .draw()?;
+        area.present()?;
         Ok(())
     }
 
-    fn draw_curve<'b, X, Y>(
+    /// What the axis upwards counts, then the names of the curves, in as many rows as they need; tells how high that
+    /// is, pixels.
+    fn draw_legend(
         &self,
-        chart: &mut ChartContext<'b, SVGBackend<'b>, Cartesian2d<X, Y>>,
+        area: &DrawingArea<SVGBackend<'_>, Shift>,
+    ) -> Result<i32, Box<dyn Error>> {
+        let length = |text: &str| (text.chars().count() as f64 * LETTER_WIDTH) as i32;
+        let style = ("sans-serif", LETTERS).into_font().color(&BLACK);
+        area.draw(&Text::new(self.up.name, (GAPS[0], 4), style.clone()))?;
+        let first = GAPS[0] + length(self.up.name) + GAPS[1];
+        let (mut left, mut top) = (first, 4);
+        for curve in self.curves.iter().filter(|curve| !curve.name.is_empty()) {
+            let whole = SAMPLE + GAPS[0] + length(&curve.name);
+            if left > first && left + whole > self.size[0] as i32 {
+                (left, top) = (first, top + ROW);
+            }
+            let middle = top + LETTERS / 2;
+            curve.draw_sample(area, [left, middle])?;
+            let name = (left + SAMPLE + GAPS[0], top);
+            area.draw(&Text::new(curve.name.as_str(), name, style.clone()))?;
+            left += whole + GAPS[1];
+        }
+        Ok(top + ROW)
+    }
+
+    /// An axis for all points, with a number at every so many pixels; `None` without points.
+    fn spec(
+        &self,
+        axis: Axis<'_>,
+        of: impl Fn(&(f64, f64)) -> f64,
+        count: u32,
+    ) -> Option<AxisSpec> {
+        let ticks = |curve: &&Curve| !matches!(curve.stroke, Stroke::Ticks(_));
+        let values = self.curves.iter().filter(ticks).flat_map(|curve| &curve.points).map(of);
+        match axis.logarithmic {
+            true => AxisSpec::logarithmic(values, count as usize),
+            false => AxisSpec::linear(values, count as usize),
+        }
+    }
+
+    fn draw_curve<'b>(
+        &self,
+        chart: &mut ChartContext<'b, SVGBackend<'b>, Cartesian2d<AxisSpec, AxisSpec>>,
         curve: &Curve,
-    ) -> Result<(), Box<dyn Error>>
-    where
-        X: Ranged<ValueType = f64>,
-        Y: Ranged<ValueType = f64>,
-    {
-        let [r, g, b] = curve.colour;
-        let (colour, stroke) = (RGBColor(r, g, b), curve.stroke);
-        let line = colour.stroke_width(2);
+    ) -> Result<(), Box<dyn Error>> {
+        let line = curve.line();
         let sound = |&(x, y): &(f64, f64)| {
             let fits = |value: f64, axis: Axis<'_>| {
                 value.is_finite() && (value > 0.0 || !axis.logarithmic)
@@ -176,81 +183,79 @@ impl Plot<'_> {
             fits(x, self.across) && fits(y, self.up)
         };
         let points: Vec<(f64, f64)> = curve.points.iter().copied().filter(sound).collect();
-        let drawn = match stroke {
+        match curve.stroke {
             Stroke::Ticks(row) => {
                 let range = chart.y_range();
                 let at = |share: f64| range.start + share * (range.end - range.start);
                 let [foot, top] = [0.1, 0.9].map(|part| at((f64::from(row) + part) * TICK));
                 let tick = |&(x, _): &(f64, f64)| {
-                    PathElement::new([(x, foot), (x, top)], colour.stroke_width(1))
+                    PathElement::new([(x, foot), (x, top)], line.color.stroke_width(1))
                 };
-                chart.draw_series(points.iter().map(tick))?
+                chart.draw_series(points.iter().map(tick))?;
+                return Ok(());
             }
-            Stroke::Dashed => chart.draw_series(DashedLineSeries::new(points, 6, 4, line))?,
-            Stroke::Line => chart.draw_series(LineSeries::new(points, line))?,
-            Stroke::Circles => {
-                chart.draw_series(LineSeries::new(points.iter().copied(), line))?;
-                let mark = |at| Circle::new(at, 4, colour.filled());
-                chart.draw_series(points.iter().copied().map(mark))?
-            }
-            Stroke::Squares => {
-                chart.draw_series(LineSeries::new(points.iter().copied(), line))?;
-                let square = |at| {
-                    EmptyElement::at(at)
-                        + Rectangle::new([(-4, -4), (4, 4)], WHITE.filled())
-                        + Rectangle::new([(-4, -4), (4, 4)], line)
-                };
-                chart.draw_series(points.iter().copied().map(square))?
-            }
-        };
-        if curve.name.is_empty() {
-            return Ok(());
-        }
-        let drawn = drawn.label(&curve.name);
-        let across = |(x, y)| [(x, y), (x + 24, y)];
-        match stroke {
             Stroke::Dashed => {
-                drawn.legend(move |at| DashedPathElement::new(across(at), 6, 4, line));
-            }
-            Stroke::Ticks(_) => {
-                let upright = |(x, y)| [(x + 12, y - 5), (x + 12, y + 5)];
-                drawn.legend(move |at| PathElement::new(upright(at), line));
+                chart.draw_series(DashedLineSeries::new(points.clone(), 6, 4, line))?;
             }
             _ => {
-                drawn.legend(move |at| PathElement::new(across(at), line));
+                chart.draw_series(LineSeries::new(points.iter().copied(), line))?;
             }
+        }
+        let points = points.into_iter();
+        match curve.stroke {
+            Stroke::Circles => {
+                chart.draw_series(points.map(|at| circle(at, line)))?;
+            }
+            Stroke::Squares => {
+                chart.draw_series(points.map(|at| square(at, line)))?;
+            }
+            _ => (),
         }
         Ok(())
     }
 }
 
-/// Lines across the plot; those of logarithmic axes without a label do not count.
-fn labels(axis: Axis<'_>) -> usize {
-    if axis.logarithmic { 24 } else { 8 }
-}
+impl Curve {
+    fn line(&self) -> ShapeStyle {
+        let [r, g, b] = self.colour;
+        RGBColor(r, g, b).stroke_width(2)
+    }
 
-/// What stands beside a line across the plot: on logarithmic axes only at 1, 2, and 5, since others crowd.
-fn label(axis: Axis<'_>, value: f64) -> String {
-    let leading = value / 10_f64.powf(value.abs().log10().floor());
-    let crowds =
-        axis.logarithmic && ![1.0, 2.0, 5.0, 10.0].iter().any(|x| (x - leading).abs() < 1e-6);
-    if crowds { String::new() } else { short(value) }
-}
-
-/// A number with as few digits as it needs.
-fn short(x: f64) -> String {
-    let size = x.abs();
-    if x == 0.0 {
-        "0".to_owned()
-    } else if !(1e-3..1e6).contains(&size) {
-        format!("{x:.0e}")
-    } else {
-        let digits = (2 - size.log10().floor() as i32).max(0) as usize;
-        let text = format!("{x:.digits$}");
-        if text.contains('.') {
-            text.trim_end_matches('0').trim_end_matches('.').to_owned()
-        } else {
-            text
+    /// A short piece of it, as the legend has it, from a point to the right.
+    fn draw_sample(
+        &self,
+        area: &DrawingArea<SVGBackend<'_>, Shift>,
+        [left, middle]: [i32; 2],
+    ) -> Result<(), Box<dyn Error>> {
+        let line = self.line();
+        let whole = [(left, middle), (left + SAMPLE, middle)];
+        let centre = (left + SAMPLE / 2, middle);
+        match self.stroke {
+            Stroke::Ticks(_) => {
+                let upright = [(centre.0, middle - 5), (centre.0, middle + 5)];
+                area.draw(&PathElement::new(upright, line))?;
+            }
+            Stroke::Dashed => area.draw(&DashedPathElement::new(whole, 6, 4, line))?,
+            _ => area.draw(&PathElement::new(whole, line))?,
         }
+        match self.stroke {
+            Stroke::Circles => area.draw(&circle(centre, line))?,
+            Stroke::Squares => area.draw(&square(centre, line))?,
+            _ => (),
+        }
+        Ok(())
     }
 }
+
+fn circle<C>(at: C, line: ShapeStyle) -> Circle<C, i32> {
+    Circle::new(at, 4, line.color.filled())
+}
+
+/// An open square.
+fn square<'b, C>(at: C, line: ShapeStyle) -> ComposedElement<C, SVGBackend<'b>, Box4, Box4> {
+    EmptyElement::at(at)
+        + Rectangle::new([(-4, -4), (4, 4)], WHITE.filled())
+        + Rectangle::new([(-4, -4), (4, 4)], line)
+}
+
+type Box4 = Rectangle<(i32, i32)>;

@@ -85,6 +85,45 @@ fn written(cell: &Cell) -> Markup {
     }
 }
 
+/// A few results to be read at a glance, a row for each thing.
+#[derive(Clone, Debug)]
+pub struct Board<'a> {
+    /// What they say, above them.
+    pub caption: &'a str,
+    /// Names of the columns, but for the first, which has those of the rows.
+    pub header: &'a [&'a str],
+    /// The rows.
+    pub rows: Vec<BoardRow>,
+}
+
+/// A row of a [`Board`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BoardRow {
+    /// What it is about.
+    pub name: String,
+    /// As many as the header names.
+    pub cells: Vec<String>,
+}
+
+/// The results; they neither sort nor download.
+pub fn board(board: &Board<'_>) -> Markup {
+    html! {
+        figure.board {
+            figcaption { (board.caption) }
+            div.scroll {
+                table {
+                    thead { tr { td {} @for name in board.header { th scope="col" { (name) } } } }
+                    tbody {
+                        @for row in &board.rows {
+                            tr { th scope="row" { (row.name) } @for cell in &row.cells { td { (cell) } } }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// Something that is known.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fact<'a> {
@@ -98,7 +137,7 @@ pub struct Fact<'a> {
 pub fn facts(rows: &[Fact<'_>]) -> Markup {
     html! {
         div.scroll {
-            table {
+            table.facts {
                 tbody {
                     @for Fact { name, value } in rows {
                         tr { th scope="row" { (name) } td { (value) } }

@@ -159,22 +159,54 @@ impl LegendLayout {
             let colour = colours::at(place).to_array().map(|coded| (coded * 255.0).round() as u8);
             fill(image, [self.bar_left + x, top, 1, self.letters.height], colour);
         }
-        let most = (self.bar_width / (9 * self.letters.width)).clamp(2, 10);
         let foot = top + self.letters.height;
-        let mut free_from = 0;
-        for mark in scale.marks(most as usize) {
-            let along = scale.place(mark) * f64::from(self.bar_width - 1);
-            let x = self.bar_left + along.round() as u32;
-            fill(image, [x, foot, 1, self.margin], INK);
-            let text = short_number(mark);
-            let width = self.letters.length(&text);
-            let left = x.saturating_sub(width / 2).min(image.width().saturating_sub(width));
-            if left >= free_from {
-                self.letters.write(image, &text, [left, foot + self.margin]);
-                free_from = left + width + self.letters.width;
-            }
+        for Mark { at, text, left } in self.marks(scale, image.width()) {
+            fill(image, [at, foot, 1, self.margin], INK);
+            self.letters.write(image, &text, [left, foot + self.margin]);
         }
     }
+
+    /// As many marks as have room for their numbers; two at least.
+    fn marks(&self, scale: &Scale, width: u32) -> Vec<Mark> {
+        let most = (self.bar_width / (5 * self.letters.width)).clamp(2, 10) as usize;
+        let fitting = (2..=most).rev().map(|count| self.placed(&scale.marks(count), scale, width));
+        fitting.into_iter().find(|marks| self.has_room(marks)).unwrap_or_else(|| {
+            // The first and the last, as far apart as the picture is wide.
+            let mut marks = self.placed(&scale.marks(2), scale, width);
+            marks.drain(1..marks.len().saturating_sub(1).max(1));
+            if let [first, last] = marks.as_mut_slice() {
+                first.left = 0;
+                last.left = width.saturating_sub(self.letters.length(&last.text));
+            }
+            marks
+        })
+    }
+
+    /// Marks with their numbers centred under them, moved where they would stand out of the picture.
+    fn placed(&self, marks: &[f64], scale: &Scale, width: u32) -> Vec<Mark> {
+        let place = |&mark: &f64| {
+            let along = scale.place(mark) * f64::from(self.bar_width - 1);
+            let (at, text) = (self.bar_left + along.round() as u32, short_number(mark));
+            let length = self.letters.length(&text);
+            let left = at.saturating_sub(length / 2).min(width.saturating_sub(length));
+            Mark { at, text, left }
+        };
+        marks.iter().map(place).collect()
+    }
+
+    /// True if there is a letter's width at least between all numbers.
+    fn has_room(&self, marks: &[Mark]) -> bool {
+        marks.windows(2).all(|pair| {
+            pair[0].left + self.letters.length(&pair[0].text) + self.letters.width <= pair[1].left
+        })
+    }
+}
+
+/// A mark under the bar: pixels from the left to it, its number, and from the left to that.
+struct Mark {
+    at: u32,
+    text: String,
+    left: u32,
 }
 
 /// A text in lines of at most `most` letters, broken between words; a longer word stays whole.
@@ -190,4 +222,29 @@ fn lines(text: &str, most: usize) -> Vec<String> {
         }
     }
     lines
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn every_scale_has_two_numbers_that_can_be_read(
+            low in 1e-6..1e3_f64, decades in 0.01..9.0_f64, width in LEAST_WIDTH..1400,
+        ) {
+            let scale = Scale::of_values(low, low * 10_f64.powf(decades));
+            let body = LegendBody::Scale(&scale);
+            let legend = Legend { label: "radiosity, W/m²", remark: String::new(), body };
+            let layout = LegendLayout::new(Letters::for_picture(width, width), width, &legend);
+            let marks = layout.marks(&scale, width);
+            prop_assert!(marks.len() >= 2);
+            let texts: Vec<&str> = marks.iter().map(|mark| mark.text.as_str()).collect();
+            let longest = texts.iter().map(|text| layout.letters.length(text)).max().unwrap_or(0);
+            let is_readable = layout.has_room(&marks) || 2 * longest + layout.letters.width > width;
+            prop_assert!(is_readable, "{texts:?} in {width} pixels");
+        }
+    }
 }

@@ -3,7 +3,7 @@
 use super::colours;
 use super::picture::Picture;
 use super::scale::Scale;
-pub(crate) use super::scale::round_above;
+pub(crate) use super::scale::{linear_marks, logarithmic_marks, round_above, short_number};
 use super::view::View;
 use crate::colour::Rgb;
 

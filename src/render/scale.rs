@@ -52,30 +52,57 @@ impl Scale {
         part.clamp(0.0, 1.0)
     }
 
-    /// Round values on the scale, at most about `count`, in rising order.
+    /// Round values on the scale, in rising order: two at least, and beyond those no more than `count`.
     pub(super) fn marks(&self, count: usize) -> Vec<f64> {
-        let count = count.max(2) as f64;
-        if self.logarithmic {
-            self.logarithmic_marks(count)
-        } else {
-            let step = round_above((self.high - self.low) / count);
-            let first = (self.low / step - 1e-9).ceil() as i64;
-            let last = (self.high / step + 1e-9).floor() as i64;
-            (first..=last).map(|index| index as f64 * step).collect()
+        let ends = [self.low, self.high];
+        if self.logarithmic { logarithmic_marks(ends, count) } else { linear_marks(ends, count) }
+    }
+}
+
+/// Multiples of 1, 2 or 5 times a power of ten from `low` to `high`, `low < high`: two at least, and beyond those no
+/// more than `count`.
+pub(crate) fn linear_marks([low, high]: [f64; 2], count: usize) -> Vec<f64> {
+    let mut step = round_above((high - low) / count.max(2) as f64);
+    loop {
+        let first = (low / step - 1e-9).ceil() as i64;
+        let last = (high / step + 1e-9).floor() as i64;
+        // Steps that are too small to be told apart would go on for ever.
+        if last > first || step < 1e-12 * high.abs() {
+            return (first..=last).map(|index| index as f64 * step).collect();
+        }
+        step = round_above(step / 2.5);
+    }
+}
+
+/// Round values from `low` to `high`, `0 < low < high`, for a logarithmic scale: 1, 2 and 5 of every decade, or if
+/// those are more than `count`, 1 of every decade, of every second, and so on. Two at least: where the ends are nearer
+/// to each other than that, they are [`linear_marks`].
+pub(crate) fn logarithmic_marks(ends: [f64; 2], count: usize) -> Vec<f64> {
+    let thirds = decade_marks(ends, &[1.0, 2.0, 5.0], 1);
+    if thirds.len() < 2 {
+        return linear_marks(ends, count);
+    }
+    let decades = (ends[1] / ends[0]).log10().ceil() as i32 + 1;
+    let sparser = (1..=decades).map(|stride| decade_marks(ends, &[1.0], stride));
+    let several = std::iter::once(thirds).chain(sparser).take_while(|marks| marks.len() >= 2);
+    let mut sparsest = Vec::new();
+    for marks in several {
+        sparsest = marks;
+        if sparsest.len() <= count {
+            break;
         }
     }
+    sparsest
+}
 
-    fn logarithmic_marks(&self, count: f64) -> Vec<f64> {
-        let decades = (self.high / self.low).log10();
-        let digits: &[f64] = if 3.0 * decades <= count { &[1.0, 2.0, 5.0] } else { &[1.0] };
-        let stride = (decades / count).ceil().max(1.0) as usize;
-        let (first, last) = (self.low.log10().floor() as i32, self.high.log10().ceil() as i32);
-        (first..=last)
-            .step_by(stride)
-            .flat_map(|exponent| digits.iter().map(move |digit| digit * 10_f64.powi(exponent)))
-            .filter(|mark| (self.low * (1.0 - 1e-9)..=self.high * (1.0 + 1e-9)).contains(mark))
-            .collect()
-    }
+/// These digits in every decade whose exponent is a multiple of `stride`.
+fn decade_marks([low, high]: [f64; 2], digits: &[f64], stride: i32) -> Vec<f64> {
+    let (first, last) = (low.log10().floor() as i32, high.log10().ceil() as i32);
+    (first..=last)
+        .filter(|exponent| exponent % stride == 0)
+        .flat_map(|exponent| digits.iter().map(move |digit| digit * 10_f64.powi(exponent)))
+        .filter(|mark| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(mark))
+        .collect()
 }
 
 /// The least of 1, 2, 5 times a power of ten that is not below `value`, which is positive.
@@ -86,7 +113,7 @@ pub(crate) fn round_above(value: f64) -> f64 {
 }
 
 /// `value` with three digits that count, without trailing zeros.
-pub(super) fn short_number(value: f64) -> String {
+pub(crate) fn short_number(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude == 0.0 {
         return "0".to_owned();
@@ -138,11 +165,22 @@ mod tests {
 
     proptest! {
         #[test]
-        fn marks_are_few_and_rise_along_the_scale(low in 0.0..1e3_f64, span in 1e-3..1e6_f64) {
+        fn marks_are_two_at_least_and_few_and_rise_along_the_scale(
+            low in 0.0..1e3_f64, span in 1e-3..1e6_f64, count in 2_usize..12,
+        ) {
             let scale = Scale::of_values(low, low + span);
-            let marks = scale.marks(8);
-            prop_assert!((1..=12).contains(&marks.len()), "{:?}", marks);
+            let marks = scale.marks(count);
+            prop_assert!((2..=count.max(6)).contains(&marks.len()), "{:?}", marks);
             prop_assert!(marks.windows(2).all(|pair| scale.place(pair[0]) < scale.place(pair[1])));
+            prop_assert!(marks[0] >= scale.low * (1.0 - 1e-6) - 1e-9 && marks[marks.len() - 1] <= scale.high * (1.0 + 1e-6));
+        }
+
+        #[test]
+        fn ends_of_any_ratio_have_two_marks(low in 1e-6..1e6_f64, decades in 1e-3..12.0_f64, count in 2_usize..12) {
+            let high = low * 10_f64.powf(decades);
+            let marks = logarithmic_marks([low, high], count);
+            prop_assert!((2..=count.max(6)).contains(&marks.len()), "{:?}", marks);
+            prop_assert!(marks.windows(2).all(|pair| pair[0] < pair[1]));
         }
 
         #[test]

@@ -3,6 +3,7 @@
 use glam::{DAffine2, DVec2, DVec3};
 use serde::Serialize;
 
+use super::ids::SurfaceId;
 use super::tint::Tint;
 use crate::colour::Rgb;
 use crate::error::{Error, Result};
@@ -92,6 +93,17 @@ impl Surfaces {
             Some(flaw) => Err(Error::Scene(flaw.clone())),
             None => Ok(()),
         }
+    }
+
+    /// What names each of them, in their order.
+    pub fn ids(&self) -> impl Iterator<Item = SurfaceId> + use<> {
+        (0..self.list.len() as u32).map(SurfaceId)
+    }
+
+    /// The other side of a double-sided polygon; none of any other surface.
+    pub fn other_side(&self, id: SurfaceId) -> Option<SurfaceId> {
+        let Surface { two_sided, is_back, .. } = self[id];
+        two_sided.then(|| SurfaceId(if is_back { id.0 - 1 } else { id.0 + 1 }))
     }
 
     /// Opposite corners of the box around all surfaces, m; `None` without any.

@@ -108,12 +108,48 @@ fn the_page_holds_the_verdict_and_all_it_rests_on() {
         "The meshes",
         "Both meshes",
         "What to doubt",
+        "What was compared",
         "id=\"comparison\"",
     ] {
         assert!(page.contains(part), "{part}");
     }
+    assert!(page.contains("Signed errors of the close-up"));
+    let headings = page.matches("<h2>").count();
+    let contents = page.split("</nav>").next().expect("contents").split("href=\"#").skip(1);
+    let anchors: Vec<&str> = contents.filter_map(|rest| rest.split('"').next()).collect();
+    assert!(anchors.len() == headings && headings >= 8, "{anchors:?} for {headings} sections");
+    for anchor in anchors {
+        assert_eq!(page.matches(&format!("<section id=\"{anchor}\"><h2>")).count(), 1, "{anchor}");
+    }
     assert!(!page.contains("http:") && !page.contains("https:"), "the page asks for nothing");
     assert!(page.len() < 8_000_000, "{} bytes", page.len());
+}
+
+/// By default, so good and no better.
+#[test]
+fn a_reference_resolves_the_errors_that_it_finds() {
+    let place = Place::new();
+    let scene = scene("cornell-box.obj");
+    let asked = ["--adaptive", "50%,20%", "--uniform", "0.2,0.1", "--places", "300"];
+    let quick = ["--quality", "draft", "--hemicube-resolution", "32", "--budget", "10min"];
+    let compare = ["compare", &scene, "--json"];
+    let outcome = place.run(&[&compare[..], &asked, &quick].concat()).done();
+    let json = outcome.json();
+    let runs = json["runs"].as_array().expect("a list");
+    let errors = |run: &serde_json::Value, band: &str| {
+        let of = |name: &str| run["score"][band][name].as_f64().expect("a number");
+        (of("floor"), of("rmse"))
+    };
+    let bands = ["all", "shadow", "rest"];
+    let pairs: Vec<(f64, f64)> =
+        runs.iter().flat_map(|run| bands.map(|band| errors(run, band))).collect();
+    assert_eq!(pairs.len(), 12);
+    // By chance an error is wrong by floor² / 4 e, which is to be less than 5 %.
+    let shares = || pairs.iter().map(|(floor, error)| floor * floor / (4.0 * error * error));
+    assert!(shares().all(|share| share <= 0.05 + 1e-9), "{pairs:?}");
+    let paths = json["reference"]["origin"]["traced"]["paths"].as_f64().expect("a number");
+    let worst = shares().fold(0.0, f64::max);
+    assert!(paths <= 512.0 || worst > 0.01, "{paths} paths, and only {worst}");
 }
 
 #[test]

@@ -78,19 +78,61 @@ fn sigterm_ends_every_command_with_what_there_is() {
     assert!(!place.path("report.html").exists());
 }
 
+/// Small enough to be quick, but for what is to be stopped.
+const COARSE: [&str; 6] = ["--places", "200", "--stop", "5%", "--hemicube-resolution", "32"];
+
+/// A comparison that was stopped has written its figures and a page that says so; the figures.
+fn stopped_comparison(place: &Place, outcome: &Outcome) -> serde_json::Value {
+    assert!(outcome.stdout.contains("Stopped before the end"), "{}", outcome.stdout);
+    let runs = std::fs::read_to_string(place.path("runs.json")).expect("it was written");
+    let runs: serde_json::Value = serde_json::from_str(&runs).expect("it is JSON");
+    assert_eq!(runs["interrupted"], true);
+    let page = std::fs::read_to_string(place.path("report.html")).expect("it was written");
+    let notice = page.split("class=\"notice\"").nth(1).expect("the page says that it was stopped");
+    assert!(notice.contains("Stopped before the end"));
+    runs
+}
+
 #[test]
 fn a_comparison_ended_early_reports_the_runs_that_are_done() {
     let place = Place::new();
     let scene = scene("cornell-box.obj");
-    let coarse = ["--places", "200", "--noise", "50%", "--adaptive", "50%,0.1%", "--stop", "5%"];
+    let coarse = ["--noise", "50%", "--adaptive", "50%,0.1%"];
     let written = ["--figures", "runs.json", "-o", "report.html"];
-    let compare = [&["compare", scene.as_str()][..], &coarse, &written].concat();
+    let compare = [&["compare", scene.as_str()][..], &COARSE, &coarse, &written].concat();
     let outcome = signalled(&place, &compare, "-TERM", "adaptive 0.5").unfinished();
-    assert!(outcome.stdout.contains("interrupted: not all"), "{}", outcome.stdout);
-    let runs = std::fs::read_to_string(place.path("runs.json")).expect("it was written");
-    let runs: serde_json::Value = serde_json::from_str(&runs).expect("it is JSON");
-    assert_eq!(runs["interrupted"], true);
-    assert!(place.path("report.html").exists());
+    let runs = stopped_comparison(&place, &outcome);
+    let runs = runs["runs"].as_array().expect("a list");
+    assert!(runs.iter().all(|run| run["family"] == "adaptive"), "{runs:?}");
+    assert!(runs.len() == 1 && runs[0]["score"]["all"]["rmse"].as_f64() > Some(0.0), "{runs:?}");
+}
+
+#[test]
+fn a_comparison_ended_while_its_reference_is_sharpened_reports_all_runs() {
+    let place = Place::new();
+    let scene = scene("cornell-box.obj");
+    let meshes =
+        ["--noise", "0.001%", "--adaptive", "50%", "--uniform", "0.2", "--budget", "10min"];
+    let written = ["--figures", "runs.json", "-o", "report.html", "--quality", "draft"];
+    let compare = [&["compare", scene.as_str()][..], &COARSE, &meshes, &written].concat();
+    let outcome = signalled(&place, &compare, "-INT", "uniform 0.2").unfinished();
+    let runs = stopped_comparison(&place, &outcome);
+    assert_eq!(runs["runs"].as_array().map(Vec::len), Some(2));
+    assert!(runs["reference"]["area_noise"].as_f64() > Some(0.0), "{}", runs["reference"]);
+}
+
+#[test]
+fn a_comparison_that_runs_out_of_time_reports_what_is_done() {
+    let place = Place::new();
+    let scene = scene("cornell-box.obj");
+    let meshes =
+        ["--noise", "0.001%", "--adaptive", "50%", "--uniform", "0.2", "--budget", "10min"];
+    let written = ["--figures", "runs.json", "-o", "report.html", "--quality", "draft"];
+    let limit = ["--time-limit", "15s"];
+    let compare = [&["compare", scene.as_str()][..], &COARSE, &meshes, &written, &limit].concat();
+    let outcome = place.run(&compare).unfinished();
+    assert!(outcome.stderr.contains("the time is over"), "{}", outcome.stderr);
+    assert!(stopped_comparison(&place, &outcome)["runs"].as_array().is_some_and(|r| !r.is_empty()));
 }
 
 #[test]

@@ -7,7 +7,8 @@ use proptest::prelude::*;
 use radiosity::TriMesh;
 use radiosity::colour::Rgb;
 use radiosity::page::{
-    self, Cell, Fact, Markup, Model, Step, Table, Viewer, WipePicture, columns, facts, html,
+    self, Axis, Board, BoardRow, CURVE_COLOURS, Cell, Curve, Fact, Markup, Model, Plot, Section,
+    Step, Stroke, Table, Viewer, WipePicture, columns, facts, html,
 };
 use radiosity::reconstruct::MeshPart;
 use radiosity::scene::{Camera, Sampler, Texture, Wrap};
@@ -68,6 +69,12 @@ fn everything(text: &str) -> String {
         (page::wipe(&[picture, picture, picture], text))
         (page::table(&Table { caption: text, header: &[text, "n"], rows, file: text }))
         (facts(&[Fact { name: text, value: text.to_owned() }]))
+        (page::board(&Board {
+            caption: text,
+            header: &[text],
+            rows: vec![BoardRow { name: text.to_owned(), cells: vec![text.to_owned()] }],
+        }))
+        (page::sections(&[Section { title: text, body: page::folded(text, &html! { (text) }) }]))
         (page::data("data", &json!({ text: [text, 1.5] })))
     };
     page::document(text, &body).into_string()
@@ -240,6 +247,79 @@ proptest! {
         prop_assert_eq!(&data, &json!({ text.as_str(): [text.as_str(), 1.5] }));
         let record = json_after(&page, "<script type=\"application/json\">");
         prop_assert_eq!(record["steps"][0]["label"].as_str(), Some(text.as_str()));
+    }
+}
+
+/// Curves of each kind, on logarithmic axes from so much on over so many decades, or on linear ones.
+fn chart(logarithmic: bool, [across, up]: [f64; 2], decades: [f64; 2]) -> String {
+    let at = |share: f64| {
+        let value = |low: f64, decades: f64| low * 10_f64.powf(share * decades);
+        (value(across, decades[0]), value(up, decades[1]))
+    };
+    let strokes =
+        [Stroke::Line, Stroke::Dashed, Stroke::Circles, Stroke::Squares, Stroke::Ticks(0)];
+    let curve = |(k, stroke): (usize, Stroke)| Curve {
+        name: format!("curve {k}"),
+        colour: CURVE_COLOURS.get(k).copied().unwrap_or([0; 3]),
+        stroke,
+        points: [0.0, 0.3, 1.0].map(at).to_vec(),
+    };
+    let axis = |name| Axis { name, logarithmic };
+    let curves = strokes.into_iter().enumerate().map(curve).collect();
+    Plot { size: [360, 280], across: axis("elements"), up: axis("error"), curves }.svg()
+}
+
+/// Numbers of a drawing whose letters stand like that beside their place.
+fn numbers_beside(svg: &str, anchor: &str) -> Vec<f64> {
+    let texts = svg.split("<text").skip(1).filter(|text| text.contains(&format!("\"{anchor}\"")));
+    let inside = texts.filter_map(|text| text.split_once('>')?.1.split_once('<'));
+    inside.filter_map(|(words, _)| words.trim().parse().ok()).collect()
+}
+
+proptest! {
+    #[test]
+    fn every_axis_has_two_round_numbers_at_least(
+        logarithmic: bool,
+        low in (1e-3..1e3_f64, 1e-3..1e3_f64),
+        decades in (0.0..5.0_f64, 0.0..5.0_f64),
+    ) {
+        let svg = chart(logarithmic, low.into(), decades.into());
+        // Those below stand in the middle of their place, those at the left end at it.
+        for anchor in ["middle", "end"] {
+            let found = numbers_beside(&svg, anchor);
+            prop_assert!((2..14).contains(&found.len()), "{anchor}: {found:?}");
+            let wide = found.iter().fold(0.0, |most: f64, x| most.max(*x)) > 6.0 * found[0].max(found[1]);
+            let leading = |x: &f64| (x / 10_f64.powf(x.log10().floor() + 1e-9)).round();
+            let round = found.iter().all(|x| [1.0, 2.0, 5.0, 10.0].contains(&leading(x)));
+            prop_assert!(!(logarithmic && wide) || round, "{found:?}");
+        }
+    }
+}
+
+/// What is drawn black on white would be unreadable in the dark scheme.
+#[test]
+fn pages_have_a_rule_for_every_colour_that_charts_are_drawn_in() {
+    let svg = chart(true, [1.0, 1.0], [2.0, 2.0]);
+    let page = page::document("A chart", &html! { p { "light" } }).into_string();
+    let mut colours = 0;
+    for kind in ["fill", "stroke"] {
+        for rest in svg.split(&format!("{kind}=\"#")).skip(1) {
+            let rule = format!(".plot [{kind}=\"#{}\"]", rest.split('"').next().unwrap());
+            assert!(page.contains(&rule), "no {rule}");
+            colours += 1;
+        }
+    }
+    assert!(colours > 20 && svg.contains("viewBox") && svg.contains("#0072B2"), "{svg}");
+}
+
+#[test]
+fn contents_lead_to_every_section() {
+    let section = |title| Section { title, body: html! { p { "light" } } };
+    let page = page::sections(&[section("All runs"), section("Across a shadow's edge")]);
+    let page = page.into_string();
+    for anchor in ["all-runs", "across-a-shadow-s-edge"] {
+        assert!(page.contains(&format!("href=\"#{anchor}\"")), "{page}");
+        assert!(page.contains(&format!("<section id=\"{anchor}\">")), "{page}");
     }
 }
 

@@ -12,7 +12,6 @@ use crate::page::{Markup, html};
 pub(super) fn notes(comparison: &Comparison, of_scene: &[String]) -> Markup {
     let warnings = warnings(comparison);
     html! {
-        h2 { "What to doubt" }
         p { (reference(comparison)) }
         p { (losses(comparison)) }
         p { (effectivity(comparison)) }
@@ -106,9 +105,7 @@ fn effectivity(comparison: &Comparison) -> String {
 
 fn warnings(comparison: &Comparison) -> Vec<String> {
     let mut warnings = Vec::new();
-    if comparison.interrupted {
-        warnings.push("Interrupted: not all runs that were planned are here.".to_owned());
-    }
+    warnings.extend(comparison.stopped());
     for run in &comparison.runs {
         let name = format!("{} {}", run.family.name(), run.knob);
         if !run.converged {

@@ -1,4 +1,4 @@
-//! Pictures of both meshes beside the reference, where they differ most, and by how much.
+//! Pictures of both meshes beside the reference, and by how much they differ from it.
 
 use std::ops::ControlFlow;
 
@@ -6,21 +6,16 @@ use super::account::Account;
 use super::errors::{ErrorMap, ErrorScale};
 use crate::compare::comparison::Comparison;
 use crate::compare::run::{Lit, Run};
+use crate::compare::sentences::{capital, number};
 use crate::page::{self, Markup, WipePicture, html};
-use crate::render::{Picture, RenderOptions, Solved, Subject, View, close_up, png, render_solved};
+use crate::render::{Picture, RenderOptions, Solved, Subject, View, png, render_solved};
 use crate::scene::Camera;
 
 /// Pixels of pictures.
-const SIZE: [u32; 2] = [640, 480];
+pub(super) const SIZE: [u32; 2] = [640, 480];
 
-/// Pixels of close-ups.
-const CLOSE_SIZE: [u32; 2] = [320, 240];
-
-/// How much closer a close-up is; it shows the part of a picture that a block of this kind covers.
-const ZOOM: u32 = 8;
-
-/// How many close-ups there are.
-const CLOSE_UPS: usize = 3;
+/// What pictures are called where there is little room.
+const NAMES: [&str; 3] = ["uniform", "adaptive", "reference"];
 
 /// The runs that are shown: uniform, adaptive.
 pub(super) struct Shown<'a> {
@@ -39,7 +34,12 @@ impl<'a> Shown<'a> {
     /// What a run is called.
     pub(super) fn name(&self, which: usize) -> String {
         let run = self.runs[which];
-        format!("{}, {} elements", run.family.name(), run.elements)
+        format!("{}, {} triangles", run.family.name(), number(run.triangles as f64))
+    }
+
+    /// Mean radiosity by the reference, W/m².
+    pub(super) fn mean(&self) -> f64 {
+        self.runs[1].score.all.mean
     }
 
     fn picture(&self, comparison: &Comparison, which: usize, setup: &PictureSetup<'_>) -> Picture {
@@ -52,7 +52,7 @@ impl<'a> Shown<'a> {
     }
 
     /// Uniform, adaptive, reference.
-    fn all(&self, comparison: &Comparison, setup: &PictureSetup<'_>) -> [Picture; 3] {
+    pub(super) fn all(&self, comparison: &Comparison, setup: &PictureSetup<'_>) -> [Picture; 3] {
         let exact = PictureSetup { final_gather: true, ..*setup };
         [
             self.picture(comparison, 0, setup),
@@ -64,11 +64,18 @@ impl<'a> Shown<'a> {
 
 /// From where, how large, and how exactly.
 #[derive(Clone, Copy)]
-struct PictureSetup<'a> {
+pub(super) struct PictureSetup<'a> {
     camera: &'a Camera,
     view: View,
     size: [u32; 2],
     final_gather: bool,
+}
+
+impl<'a> PictureSetup<'a> {
+    /// Of the light on the mesh.
+    pub(super) fn new(camera: &'a Camera, size: [u32; 2]) -> Self {
+        Self { camera, view: View::Light, size, final_gather: false }
+    }
 }
 
 impl PictureSetup<'_> {
@@ -85,16 +92,15 @@ pub(super) struct Gallery {
     pictures: [Vec<u8>; 3],
     /// The same with the mesh over them; the reference has none.
     meshes: [Vec<u8>; 2],
-    errors: [ErrorMap; 2],
+    pub(super) errors: [ErrorMap; 2],
     mean: f64,
 }
 
 impl Gallery {
     pub(super) fn new(comparison: &Comparison, shown: &Shown<'_>, account: &Account<'_>) -> Self {
-        let view = View::Light;
-        let setup = PictureSetup { camera: account.camera, view, size: SIZE, final_gather: false };
+        let setup = PictureSetup::new(account.camera, SIZE);
         let [uniform, adaptive, reference] = shown.all(comparison, &setup);
-        let mean = shown.runs[1].score.all.mean;
+        let mean = shown.mean();
         let errors = [&uniform, &adaptive].map(|p| ErrorMap::new(p, &reference, mean));
         let wires = PictureSetup { view: View::Wireframe, ..setup };
         let meshes = [0, 1].map(|which| {
@@ -111,89 +117,35 @@ impl Gallery {
     pub(super) fn pictures(&self) -> Markup {
         let alts = self.names.each_ref().map(|name| format!("The scene, lit: {name}"));
         let picture = |k: usize| WipePicture {
-            label: &self.names[k],
+            label: NAMES[k],
             png: &self.pictures[k],
             alt: &alts[k],
             mesh: self.meshes.get(k).map(Vec::as_slice),
         };
         let pictures = [0, 1, 2].map(picture);
-        html! {
-            h2 { "Pictures" }
-            (page::wipe(&pictures, "All at one exposure. The reference is the finest adaptive solution with direct \
-                light evaluated at every sample of the picture."))
-        }
+        let [uniform, adaptive, _] = &self.names;
+        let caption = format!(
+            "{uniform}; {adaptive}; all at one exposure. The reference is the finest adaptive solution with direct light \
+             evaluated at every sample of the picture."
+        );
+        page::wipe(&pictures, &capital(&caption))
     }
 
-    /// Where the meshes are farthest from the reference.
-    pub(super) fn close_ups(
-        &self,
-        comparison: &Comparison,
-        shown: &Shown<'_>,
-        account: &Account<'_>,
-    ) -> Markup {
-        let places = worst(&self.errors);
-        let rows = places.iter().map(|&place| {
-            let camera = close_up(account.camera, SIZE, place, f64::from(ZOOM));
-            let view = View::Light;
-            let setup =
-                PictureSetup { camera: &camera, view, size: CLOSE_SIZE, final_gather: false };
-            let pictures = shown.all(comparison, &setup);
-            let figure = |k: usize| {
-                let alt = format!("Close-up of a shadow's edge: {}", self.names[k]);
-                page::picture(&png(&pictures[k], &account.display), &alt, &self.names[k])
-            };
-            page::thirds(&[0, 1, 2].map(figure))
-        });
-        html! {
-            h2 { "Where they differ most" }
-            @for row in rows { (row) }
-            @if places.is_empty() { p { "Nowhere: both pictures are the reference's." } }
-        }
-    }
-
-    /// Signed and absolute, on one scale for both meshes.
+    /// Signed, on one scale for both meshes.
     pub(super) fn error_maps(&self) -> Markup {
         let scale = ErrorScale::of(&self.errors);
         let side = |k: usize| {
-            let name = &self.names[k];
-            let signed = format!("Signed errors: {name}");
-            let absolute = format!("Magnitudes of errors: {name}");
-            html! {
-                (page::picture(&self.errors[k].signed_png(&scale), &signed, &signed))
-                (page::picture(&self.errors[k].absolute_png(&scale), &absolute, &absolute))
-                p { (self.errors[k].in_words()) }
-            }
+            let alt = format!("Signed errors: {}", self.names[k]);
+            let caption = format!("{}. {}", capital(&self.names[k]), self.errors[k].in_words());
+            page::picture(&self.errors[k].signed_png(&scale), &alt, &caption)
         };
         html! {
-            h2 { "Errors" }
             p {
-                "Difference of luminance from the reference's picture, as a share of the mean radiosity, "
-                (format!("{:.3} W/m²", self.mean)) "; one scale for both meshes."
+                "Signed errors: luminance minus that of the reference's picture, as a share of the mean radiosity, "
+                (format!("{:.3} W/m²", self.mean)) ". Blue has too little light, orange too much."
             }
-            (page::columns(&[side(0), side(1)]))
-            (scale.legends())
+            (page::halves(&[side(0), side(1)]))
+            (scale.legend())
         }
     }
-}
-
-/// Middles, in pixels, of the blocks with the largest errors of both maps together, worst first and apart.
-fn worst(errors: &[ErrorMap; 2]) -> Vec<[f64; 2]> {
-    let block = [SIZE[0] / ZOOM, SIZE[1] / ZOOM];
-    // Blocks overlap by half.
-    let starts = |axis: usize| 0..=(SIZE[axis] - block[axis]) / (block[axis] / 2);
-    let corner = |k: u32, axis: usize| k * block[axis] / 2;
-    let mut blocks: Vec<(f64, [u32; 2])> = starts(1)
-        .flat_map(|row| starts(0).map(move |column| [corner(column, 0), corner(row, 1)]))
-        .map(|at| (errors.iter().map(|map| map.sum(at, block)).sum(), at))
-        .collect();
-    blocks.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    let mut chosen: Vec<[u32; 2]> = Vec::new();
-    for (error, at) in blocks {
-        let apart = |other: &[u32; 2]| (0..2).any(|k| at[k].abs_diff(other[k]) >= block[k]);
-        if error > 0.0 && chosen.len() < CLOSE_UPS && chosen.iter().all(apart) {
-            chosen.push(at);
-        }
-    }
-    let middle = |at: [u32; 2]| [0, 1].map(|k| f64::from(at[k]) + f64::from(block[k]) / 2.0);
-    chosen.into_iter().map(middle).collect()
 }

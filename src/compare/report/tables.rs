@@ -1,12 +1,68 @@
 //! All runs in figures, and what their meshes are made of.
 
 use crate::compare::comparison::Comparison;
-use crate::compare::run::Run;
+use crate::compare::run::{Family, Run};
 use crate::compare::score::Band;
+use crate::compare::sentences::percent;
 use crate::page::{self, Cell, Markup, Table, html};
 
 /// What runs cost and how good they are.
 pub(super) fn runs(comparison: &Comparison) -> Markup {
+    let header = [
+        "mesh",
+        "elements",
+        "triangles",
+        "s",
+        "peak MB",
+        "error, %",
+        "shadow, %",
+        "elsewhere, %",
+        "95 %, %",
+        "bias, %",
+    ];
+    html! {
+        p {
+            "Errors are root mean squares unless they say otherwise, as shares of the mean radiosity; the reference's "
+            "own variance is taken off. Memory is what the run added to that in use before."
+        }
+        (page::table(&Table {
+            caption: "",
+            header: &header,
+            rows: comparison.runs.iter().map(short_row).collect(),
+            file: "runs.csv",
+        }))
+        (page::folded("Work, time by phase, and spread of errors", &details(comparison)))
+    }
+}
+
+fn short_row(run: &Run) -> Vec<Cell> {
+    let all = &run.score.all;
+    let mut cells = vec![
+        Cell::text(name(run)),
+        Cell::count(run.elements),
+        Cell::count(run.triangles),
+        Cell::number(run.seconds.total(), 2),
+        memory(run),
+    ];
+    cells.extend(Band::ALL.map(|band| error(run, band)));
+    cells.extend([all.p95, all.bias].map(|share| Cell::number(100.0 * share, 2)));
+    cells
+}
+
+/// Its family, and what that was told.
+fn name(run: &Run) -> String {
+    match run.family {
+        Family::Uniform => format!("uniform {:.4} m", run.knob),
+        Family::Adaptive => format!("adaptive {}", percent(run.knob)),
+    }
+}
+
+fn memory(run: &Run) -> Cell {
+    Cell::number(run.peak_memory.map_or(f64::NAN, |bytes| bytes as f64 / 1e6), 1)
+}
+
+/// All that was counted and measured of each run.
+fn details(comparison: &Comparison) -> Markup {
     let header = [
         "mesh",
         "size, m, or tolerance",
@@ -33,24 +89,16 @@ pub(super) fn runs(comparison: &Comparison) -> Markup {
         "95 %, %",
         "largest, %",
     ];
-    html! {
-        h2 { "All runs" }
-        p {
-            "Errors are root mean squares unless they say otherwise, as shares of the mean radiosity; the reference's "
-            "own variance is taken off. Memory is what the run added to that in use before."
-        }
-        (page::table(&Table {
-            caption: "",
-            header: &header,
-            rows: comparison.runs.iter().map(row).collect(),
-            file: "runs.csv",
-        }))
-    }
+    page::table(&Table {
+        caption: "",
+        header: &header,
+        rows: comparison.runs.iter().map(row).collect(),
+        file: "details.csv",
+    })
 }
 
 fn row(run: &Run) -> Vec<Cell> {
     let seconds = &run.seconds;
-    let memory = run.peak_memory.map_or(f64::NAN, |bytes| bytes as f64 / 1e6);
     let all = &run.score.all;
     let mut cells = vec![
         Cell::text(run.family.name()),
@@ -66,7 +114,7 @@ fn row(run: &Run) -> Vec<Cell> {
     let phases =
         [seconds.surfaces, seconds.direct, seconds.reflected, seconds.gathering, seconds.triangles];
     cells.extend(phases.map(|seconds| Cell::number(seconds, 2)));
-    cells.extend([Cell::number(memory, 1), Cell::number(100.0 * run.imbalance.abs(), 3)]);
+    cells.extend([memory(run), Cell::number(100.0 * run.imbalance.abs(), 3)]);
     cells.extend(Band::ALL.map(|band| error(run, band)));
     let spread = [all.mean_absolute, all.bias, all.median, all.p95, all.max];
     cells.extend(spread.map(|share| Cell::number(100.0 * share, 2)));
@@ -82,22 +130,26 @@ fn error(run: &Run, band: Band) -> Cell {
 /// Sizes, levels, reasons, angles and hanging vertices.
 pub(super) fn statistics(comparison: &Comparison) -> Markup {
     let runs = &comparison.runs;
+    let reasons = page::table(&Table {
+        caption: "Elements divided, by reason; triangles; and vertices that would have hung on an edge of a neighbour, \
+                  had they not been made part of it",
+        header: &[
+            "mesh",
+            "for uniformity",
+            "gradient",
+            "shadow edge",
+            "discontinuity line",
+            "contact",
+            "smallest angle, °",
+            "below 10°, %",
+            "hanging, resolved",
+        ],
+        rows: runs.iter().map(reasons).collect(),
+        file: "meshes.csv",
+    });
     html! {
-        h2 { "The meshes" }
-        p {
-            "Why elements were divided, how slender triangles are, and how many vertices would have hung on an edge of "
-            "a neighbour, had they not been made part of it."
-        }
-        (page::table(&Table {
-            caption: "",
-            header: &[
-                "mesh", "size, m, or tolerance", "for uniformity", "gradient", "shadow edge", "discontinuity line",
-                "contact", "smallest angle, °", "below 10°, %", "hanging, resolved",
-            ],
-            rows: runs.iter().map(reasons).collect(),
-            file: "meshes.csv",
-        }))
-        (page::columns(&[levels(runs), sizes(runs)]))
+        (page::folded("The meshes: why elements were divided, and how slender triangles are", &reasons))
+        (page::folded("The meshes: elements by level and by size", &page::columns(&[levels(runs), sizes(runs)])))
     }
 }
 
@@ -110,7 +162,7 @@ fn reasons(run: &Run) -> Vec<Cell> {
         divided.discontinuity,
         divided.contact,
     ];
-    let mut cells = vec![Cell::text(run.family.name()), Cell::number(run.knob, 4)];
+    let mut cells = vec![Cell::text(name(run))];
     cells.extend(counts.map(Cell::count));
     cells.push(Cell::number(run.angles.smallest, 2));
     cells.push(Cell::number(100.0 * run.angles.below_ten, 1));
@@ -150,14 +202,10 @@ fn histogram(
     runs: &[Run],
     count: impl Fn(&Run, usize) -> usize,
 ) -> Markup {
-    let header: Vec<&str> =
-        ["mesh", ""].into_iter().chain(names.iter().map(String::as_str)).collect();
+    let header: Vec<&str> = ["mesh"].into_iter().chain(names.iter().map(String::as_str)).collect();
     let row = |run: &Run| {
         let counts = (0..names.len()).map(|k| Cell::count(count(run, k)));
-        [Cell::text(run.family.name()), Cell::number(run.knob, 4)]
-            .into_iter()
-            .chain(counts)
-            .collect()
+        [Cell::text(name(run))].into_iter().chain(counts).collect()
     };
     let rows = runs.iter().map(row).collect();
     page::table(&Table { caption, header: &header, rows, file: "histogram.csv" })

@@ -13,7 +13,7 @@ use crate::common::{Block, furnished_room, shipped};
 /// One lengthening of all rounds and no more.
 fn quick(area_points: usize, shadow_points: usize, seed: u64) -> Effort {
     let budget = Duration::from_secs(600);
-    Effort { area_points, shadow_points, noise: 10.0, budget, seed }
+    Effort { area_points, shadow_points, noise: Some(10.0), budget, seed }
 }
 
 fn trace(scene: &Scene, effort: &Effort) -> Reference {

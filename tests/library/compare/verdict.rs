@@ -58,10 +58,27 @@ fn an_error_beyond_all_runs_is_not_reached() {
 #[test]
 fn uniform_may_win_and_near_misses_are_ties() {
     let worse = verdict(law(1.0, -1.0, &COUNTS), law(1.5, -1.0, &COUNTS), None);
-    assert!(worse.sentences()[0].starts_with("Uniform wins"), "{:?}", worse.sentences());
+    assert!(worse.sentences()[0].starts_with("Adaptive lost: for"), "{:?}", worse.sentences());
+    assert!(worse.sentences()[1].contains("(adaptive lost)"), "{:?}", worse.sentences());
     let alike = verdict(law(1.0, -1.0, &COUNTS), law(1.08, -1.0, &COUNTS), None);
     assert!(alike.sentences()[0].starts_with("A tie"), "{:?}", alike.sentences());
     assert!(alike.sentences()[1].contains("(a tie)"), "{:?}", alike.sentences());
+}
+
+#[test]
+fn who_fared_how_in_what_is_told_apart() {
+    let told = |elements: [f64; 2], seconds: [f64; 2]| {
+        let curve = |factor: f64| law(factor, -1.0, &COUNTS);
+        let contest =
+            |cost, factors: [f64; 2]| Contest { cost, curves: factors.map(curve), floor: 1e-6 };
+        let contests = [contest(Cost::Elements, elements), contest(Cost::Seconds, seconds)];
+        let found = BandVerdict::new(Band::All, &contests, Some(1e-3)).expect("both have runs");
+        found.sentences()[0].split(": ").next().expect("a lead").to_owned()
+    };
+    assert_eq!(told([1.0, 0.5], [1.0, 0.5]), "Adaptive wins");
+    assert_eq!(told([1.0, 2.0], [1.0, 0.5]), "Adaptive lost in elements and won in time");
+    assert_eq!(told([1.0, 1.0], [1.0, 2.0]), "Adaptive tied in elements and lost in time");
+    assert_eq!(told([1.0, 2.0], [1.0, 2.0]), "Adaptive lost");
 }
 
 #[test]
