@@ -6,6 +6,7 @@
 //!
 //! [Cohen, Chen, Wallace and Greenberg 1988]: https://doi.org/10.1145/54852.378487
 
+mod conserve;
 mod shooting;
 
 mod ambient;
@@ -13,7 +14,6 @@ mod rows;
 
 mod state;
 
-use super::links::{Link, Row};
 use super::relaxation::{Convergence, Relaxation, RelaxationStep, RelaxationSystem};
 use super::solution::Phase;
 use super::stop::Stop;
@@ -21,6 +21,7 @@ use crate::colour::Rgb;
 use crate::error::{Error, Result};
 use crate::settings::Settings;
 
+use conserve::Carried;
 pub(super) use shooting::Shooting;
 use shooting::Unshot;
 use state::last_state;
@@ -123,8 +124,7 @@ impl RelaxationSystem for Shooting<'_, '_> {
         }
         let power = released * self.areas[shooter];
         let row = self.rows[shooter].take().unwrap_or_default();
-        let arriving = power * (1.0 - row.escaped - row.on_backs);
-        let scale = conserve(arriving, &row, &self.released);
+        let Carried { scale, outside } = Carried::all(power, &row, &self.released);
         for link in &row.links {
             let power = scale * self.released[link.source.index()] * link.exchange;
             let group = self.groups.of(self.mesh[link.receiver].patch);
@@ -136,8 +136,8 @@ impl RelaxationSystem for Shooting<'_, '_> {
             self.unshot[group] += self.reflectances[group] * power / self.areas[group];
             self.energy.absorbed += (Rgb::ONE - self.reflectances[group]) * power;
         }
-        self.energy.escaped += power * row.escaped;
-        self.energy.on_backs += power * row.on_backs;
+        self.energy.escaped += power * row.escaped * outside;
+        self.energy.on_backs += power * row.on_backs * outside;
         self.rows[shooter] = Some(row);
         self.shots += 1;
         released
@@ -149,15 +149,4 @@ fn diverged(settings: &Settings) -> Error {
     let (solver, omega) = (settings.solver.name(), settings.omega);
     let message = format!("{solver} with {omega} lets the light grow without end; use 1 or less");
     Error::Setting { name: "omega", message }
-}
-
-/// Factors by which what the links of a row carry becomes the `power` that should arrive, W.
-///
-/// Elements of a shooter near others see more or less of them than the whole does; no light may be
-/// lost by that, or come from nowhere.
-fn conserve(power: Rgb, row: &Row, released: &[Rgb]) -> Rgb {
-    let carry = |link: &Link| released[link.source.index()] * link.exchange;
-    let carried: Rgb = row.links.iter().map(carry).sum();
-    let scale = Rgb::select(carried.cmpne(Rgb::ZERO), power / carried, Rgb::ONE);
-    scale.clamp(Rgb::splat(0.8), Rgb::splat(1.25))
 }
