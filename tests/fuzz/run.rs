@@ -14,7 +14,7 @@ use crate::folder::Folder;
 const SLOW: Duration = Duration::from_secs(20);
 
 /// Least share of the inputs that the program must accept.
-const LEAST_ACCEPTED: f64 = 0.05;
+const LEAST_ACCEPTED: f64 = 0.02;
 
 /// Files by name, the one to begin with first.
 pub(crate) type Files = Vec<(String, Vec<u8>)>;
