@@ -124,9 +124,9 @@ impl RelaxationSystem for Shooting<'_, '_> {
         }
         let power = released * self.areas[shooter];
         let row = self.rows[shooter].take().unwrap_or_default();
-        let Carried { scale, outside } = Carried::all(power, &row, &self.released);
+        let Carried { scale, even, outside } = Carried::all(power, &row, &self.released);
         for link in &row.links {
-            let power = scale * self.released[link.source.index()] * link.exchange;
+            let power = (scale * self.released[link.source.index()] + even) * link.exchange;
             let group = self.groups.of(self.mesh[link.receiver].patch);
             let shared = self.groups.members(group).len() > 1;
             let area = if shared { self.areas[group] } else { self.mesh[link.receiver].area };
