@@ -51,7 +51,7 @@ pub(crate) struct FormFactorsCommand {
     #[command(flatten)]
     writing: WritingOptions,
 
-    /// How to find what is hidden; where nothing is, all methods use the exact formula
+    /// How to find what is hidden; where nothing is, all methods but hemicube-sum use the exact formula
     #[arg(long, value_enum, default_value_t = AssemblyMethod::Contour)]
     method: AssemblyMethod,
 
@@ -68,7 +68,7 @@ pub(crate) struct FormFactorsCommand {
     #[arg(long)]
     enforce: bool,
 
-    /// Cells along a hemicube's edge, with --method hemicube: even, 32 to 1024 (default: 256)
+    /// Cells along a hemicube's edge, with --method hemicube or hemicube-sum: even, 32 to 1024 (default: 256)
     #[arg(long, value_name = "CELLS")]
     hemicube_resolution: Option<u32>,
 
@@ -91,8 +91,10 @@ Examples:
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum AssemblyMethod {
-    /// Sums over the cells of hemicubes
+    /// Visibility by the cells of hemicubes over four points or more of a patch, amounts by the exact formula
     Hemicube,
+    /// The classical hemicube: from the centre of a patch, plain sums of the cells' delta form factors, aliasing and all
+    HemicubeSum,
     /// Exactly: occluders are cut out, and the rest integrated
     Contour,
     /// One ray through each cell of a hemisphere
@@ -169,8 +171,10 @@ impl FormFactorsCommand {
         if self.rays.is_some() && !matches!(self.method, AssemblyMethod::Rays) {
             return refused("rays", "are those of --method rays; say that, too".to_owned());
         }
-        if self.hemicube_resolution.is_some() && !matches!(self.method, AssemblyMethod::Hemicube) {
-            let message = "is that of --method hemicube; say that, too".to_owned();
+        let is_by_hemicubes =
+            matches!(self.method, AssemblyMethod::Hemicube | AssemblyMethod::HemicubeSum);
+        if self.hemicube_resolution.is_some() && !is_by_hemicubes {
+            let message = "is that of --method hemicube or hemicube-sum; say that, too".to_owned();
             return refused("hemicube-resolution", message);
         }
         let rays = self.rays.unwrap_or(RAYS);
@@ -184,6 +188,7 @@ impl FormFactorsCommand {
         }
         Ok(match self.method {
             AssemblyMethod::Hemicube => form_factor::FormFactorMethod::Hemicube(self.cells()),
+            AssemblyMethod::HemicubeSum => form_factor::FormFactorMethod::HemicubeSum(self.cells()),
             AssemblyMethod::Contour => form_factor::FormFactorMethod::Contour,
             AssemblyMethod::Rays => form_factor::FormFactorMethod::Rays(rays),
         })

@@ -34,6 +34,9 @@ impl<'a> PlanarPolygon<'a> {
     }
 }
 
+/// Error of a distance from a border, as a share of the coordinates it comes from.
+const ROUNDING: f64 = 1e-14;
+
 impl HalfSpace {
     /// The half space with unit `normal` and `point` on its border.
     pub fn new(point: DVec3, normal: DVec3) -> Self {
@@ -51,11 +54,20 @@ impl HalfSpace {
     }
 
     /// The part of a polygon inside, empty if there is none.
+    ///
+    /// Corners that are outside by rounding alone are on the border: cut off, they would leave edges of no length, whose
+    /// directions are noise.
     pub fn clip(&self, polygon: &[DVec3]) -> Polygon {
+        let reach = |p: &DVec3| p.abs().max_element();
+        let farthest = polygon.iter().map(reach).fold(self.offset.abs(), f64::max);
+        let depth = |p: DVec3| {
+            let depth = self.depth(p);
+            if depth.abs() <= ROUNDING * farthest { 0.0 } else { depth }
+        };
         let mut inside = Polygon::new();
         for (k, &corner) in polygon.iter().enumerate() {
             let next = polygon[(k + 1) % polygon.len()];
-            let (from, to) = (self.depth(corner), self.depth(next));
+            let (from, to) = (depth(corner), depth(next));
             if from >= 0.0 {
                 inside.push(corner);
             }

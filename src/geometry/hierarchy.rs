@@ -105,6 +105,28 @@ pub(crate) fn ray(origin: DVec3, direction: DVec3, length: f32) -> Ray {
     Ray::new(origin, direction.as_vec3a(), 0.0, length)
 }
 
+/// Places in the input of the boxes that overlap one, ascending.
+pub(crate) fn overlapping(tree: &Bvh2, bounds: Aabb) -> Vec<u32> {
+    let mut near = Vec::new();
+    let mut stack: Vec<u32> = tree.nodes.first().map(|_| 0).into_iter().collect();
+    while let Some(index) = stack.pop() {
+        let node = &tree.nodes[index as usize];
+        let overlaps =
+            node.aabb().min.cmple(bounds.max).all() && node.aabb().max.cmpge(bounds.min).all();
+        if !overlaps {
+            continue;
+        }
+        if !node.is_leaf() {
+            stack.extend([node.first_index, node.first_index + 1]);
+            continue;
+        }
+        let first = node.first_index as usize;
+        near.extend(&tree.primitive_indices[first..first + node.prim_count as usize]);
+    }
+    near.sort_unstable();
+    near
+}
+
 /// Levels below the root of a balanced tree of `count` leaves.
 fn levels(count: usize) -> u32 {
     count.next_power_of_two().ilog2()

@@ -4,6 +4,9 @@ use super::VertexLight;
 use crate::colour::Rgb;
 use crate::mesh::{ElementId, Mesh, Patch, VertexId};
 
+/// Differences of light between elements that are rounding, as a share of it.
+const EVEN: f64 = 1e-9;
+
 /// Light on every element of a mesh; all lists are one entry per element.
 #[derive(Clone, Debug, Default)]
 pub struct ElementLight {
@@ -69,6 +72,29 @@ impl ElementLight {
         sums.into_iter()
             .map(|(sum, area)| if area > 0.0 { sum / area } else { Rgb::ZERO })
             .collect()
+    }
+
+    /// The largest elements that reflected light falls on evenly; they cover all patches.
+    pub(crate) fn evenly_lit(&self, mesh: &Mesh) -> Vec<ElementId> {
+        let mut even = vec![true; mesh.elements.len()];
+        for (index, element) in mesh.elements.iter().enumerate().rev() {
+            let here = self.indirect[index];
+            let is_like = |child: &ElementId| {
+                let apart = (self.indirect[child.index()] - here).abs().max_element();
+                even[child.index()] && apart <= EVEN * here.abs().max_element()
+            };
+            even[index] = element.children.iter().all(is_like);
+        }
+        let mut open: Vec<ElementId> = mesh.patches.iter().map(|patch| patch.root).collect();
+        let mut found = Vec::new();
+        while let Some(element) = open.pop() {
+            if even[element.index()] {
+                found.push(element);
+            } else {
+                open.extend_from_slice(&mesh[element].children);
+            }
+        }
+        found
     }
 }
 

@@ -10,6 +10,7 @@ use super::progressive::{Shooting, State};
 use super::relaxation::RelaxationStep;
 use super::solution::Solution;
 use super::sources::Sources;
+use super::spread::spread;
 use super::stop::Stop;
 use super::work::Work;
 use super::{direct_light, indirect_pass};
@@ -159,14 +160,8 @@ impl Interreflection {
         }
     }
 
-    /// Gives corners of leaves the mean of the elements around them, and the ambient light; all other vertices
-    /// what is between.
+    /// Brings what the elements hold to the vertices, and the ambient light.
     pub(super) fn spread(&self, mesh: &Mesh, vertices: &mut VertexLight) {
-        let indirect = self.light.indirect_at_vertices(mesh);
-        vertices.forget_indirect(|_| true);
-        for &corner in mesh.leaves().flat_map(|leaf| &mesh[leaf].corners) {
-            vertices.set_indirect(corner, indirect[corner.index()] + self.ambient);
-        }
-        interpolate(mesh, vertices, REFLECTED);
+        spread(&self.light, self.ambient, mesh, vertices);
     }
 }

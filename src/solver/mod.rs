@@ -26,6 +26,7 @@ mod sources;
 mod start;
 
 mod arrival;
+mod spread;
 mod unfinished;
 
 mod direct_light;

@@ -295,3 +295,21 @@ fn a_scene_in_coordinates_of_a_national_grid_is_lit_as_at_the_origin() {
     let share = mean_radiosity(&far) / mean_radiosity(&here);
     assert!((share - 1.0).abs() < 1e-3, "{share} times as bright");
 }
+
+/// What is out of the balance after no shot of reflected light and after many, as a share of the emitted power.
+fn imbalances(scene: &Scene, settings: &Settings) -> [f64; 2] {
+    let surfaces = surfaces_of(scene);
+    let after = |shots: usize| {
+        let settings = Settings { max_shots: Some(shots), ..settings.clone() };
+        solve(&surfaces, &settings).energy.imbalance()
+    };
+    [after(0), after(1_500)]
+}
+
+/// Between the slats of a blind little arrives and much escapes, which links and hemicubes know differently well.
+#[test]
+fn shots_of_reflected_light_neither_lose_nor_make_any() {
+    let settings = Settings { max_level: 1, hemicube_resolution: 32, ..Settings::draft() };
+    let [before, after] = imbalances(&shipped("blind.obj"), &settings);
+    assert!((after - before).abs() < 1e-10, "{before} before, {after} after");
+}

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::common::{assert_sane, mean_radiosity, shipped};
 use radiosity::light::Direct;
-use radiosity::mesh::VertexId;
+use radiosity::mesh::{Mesh, VertexId};
 use radiosity::solver::{Cancellation, Phase, Progress, Stop};
 use radiosity::{Settings, Solution, Surfaces, reconstruct, solve, surfaces_of};
 
@@ -79,4 +79,54 @@ fn a_box_ended_early_is_coarse_but_not_wrong() {
 #[test]
 fn an_office_ended_early_is_coarse_but_not_wrong() {
     what_is_ended_early_is_coarse_but_not_wrong("office.obj", 0.1);
+}
+
+/// Corners of patches that are on an edge of another patch of their surface, with the ends of that edge; none where a
+/// contact line runs.
+fn hanging(mesh: &Mesh) -> Vec<(VertexId, [VertexId; 2])> {
+    let outlines = || mesh.patches.iter().map(|patch| &mesh[patch.root].corners[..]);
+    let edges: Vec<[VertexId; 2]> = outlines()
+        .flat_map(|corners| {
+            (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]])
+        })
+        .collect();
+    let is_on = |vertex: VertexId, [a, b]: [VertexId; 2]| {
+        let [a, b, at] = [a, b, vertex].map(|v| mesh[v].position);
+        let beyond = a.distance(at) + at.distance(b) - a.distance(b);
+        a.distance(at) > 1e-6 && at.distance(b) > 1e-6 && beyond < 1e-9
+    };
+    let mut corners: Vec<VertexId> = outlines().flatten().copied().collect();
+    corners.sort_unstable();
+    corners.dedup();
+    let on_edge = |&vertex: &VertexId| {
+        let mut own = edges.iter().filter(|[a, _]| mesh[*a].surface == mesh[vertex].surface);
+        Some((vertex, *own.find(|edge| is_on(vertex, **edge))?))
+    };
+    corners.retain(|&vertex| !mesh[vertex].on_contact);
+    corners.iter().filter_map(on_edge).collect()
+}
+
+#[test]
+fn light_on_its_way_does_not_ripple_where_patches_of_different_sizes_meet() {
+    let surfaces = surfaces_of(&shipped("cornell-box.obj"));
+    let settings = Settings { max_shots: Some(28), ..settings() };
+    let solution = solve(&surfaces, &settings, |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!(solution.stop, Stop::ShotLimit);
+    let mesh = &solution.mesh;
+    // Without the ambient light, which is even.
+    let light = |vertex: VertexId| {
+        let indirect = solution.vertex_light.indirect(vertex).unwrap();
+        (indirect - solution.ambient).element_sum()
+    };
+    let (mut count, mut ripple, mut sum) = (0, 0.0, 0.0);
+    for (vertex, [a, b]) in hanging(mesh) {
+        let [from, to, at] = [a, b, vertex].map(|v| mesh[v].position);
+        let share = from.distance(at) / from.distance(to);
+        let between = light(a) * (1.0 - share) + light(b) * share;
+        ripple += (light(vertex) - between).abs();
+        (count, sum) = (count + 1, sum + between);
+    }
+    assert!(count > 8, "{count} corners on edges");
+    // Means of those patches alone whose corners they are would come to 26 %.
+    assert!(ripple < 0.18 * sum, "{} of the light in {count} places", ripple / sum);
 }

@@ -5,14 +5,13 @@
 
 use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::Bvh2;
 use rayon::prelude::*;
 
 use super::row::SparseRow;
 use crate::form_factor::hemicube::axes;
 use crate::form_factor::rays::Sphere;
 use crate::geometry::area_vector;
-use crate::geometry::hierarchy::hierarchy;
+use crate::geometry::hierarchy::{hierarchy, overlapping};
 use crate::geometry::{HalfSpace, Polygon};
 use crate::mesh::Patch;
 use crate::visibility::{Occluders, PatchHierarchy};
@@ -50,7 +49,7 @@ impl Contacts {
         let boxes = boxes(patches, tolerance);
         let tree = hierarchy(&boxes);
         let touching = |i: usize| -> Vec<TouchingPatch> {
-            let near = near(&tree, boxes[i]);
+            let near = overlapping(&tree, boxes[i]);
             let contact =
                 |j: u32| TouchingPatch::of(&patches[i], &patches[j as usize], j, tolerance);
             near.into_iter().filter_map(contact).collect()
@@ -102,9 +101,10 @@ impl Contacts {
         self.backed[i]
     }
 
-    /// True if another patch lies on patch `i` at a point of it: nothing else is seen from there.
-    pub(super) fn cover(&self, i: usize, point: DVec3) -> bool {
-        self.face_to_face[i].iter().any(|contact| contact.holds(point))
+    /// The patch that lies on patch `i` at a point of it, if one does: nothing else is seen from there.
+    pub(super) fn covering(&self, i: usize, point: DVec3) -> Option<u32> {
+        let mut touching = self.face_to_face[i].iter();
+        touching.find(|contact| contact.holds(point)).map(|contact| contact.other)
     }
 }
 
@@ -155,27 +155,6 @@ fn boxes(patches: &[Patch], tolerance: f64) -> Vec<Aabb> {
         Aabb::new(tight.min - margin, tight.max + margin)
     };
     patches.iter().map(around).collect()
-}
-
-/// The boxes that overlap one, ascending.
-fn near(tree: &Bvh2, bounds: Aabb) -> Vec<u32> {
-    let (mut near, mut stack) = (Vec::new(), vec![0]);
-    while let Some(index) = stack.pop() {
-        let node = &tree.nodes[index as usize];
-        let overlaps =
-            node.aabb().min.cmple(bounds.max).all() && node.aabb().max.cmpge(bounds.min).all();
-        if !overlaps {
-            continue;
-        }
-        if !node.is_leaf() {
-            stack.extend([node.first_index, node.first_index + 1]);
-            continue;
-        }
-        let first = node.first_index as usize;
-        near.extend(&tree.primitive_indices[first..first + node.prim_count as usize]);
-    }
-    near.sort_unstable();
-    near
 }
 
 impl Patch {

@@ -5,11 +5,13 @@
 //! - `contour`: rows of exact exchanges
 //! - `sampled`, `views`, `average`: rows by looking from points, through hemicubes and along rays, and one exchange
 //!   of the two estimates
+//! - `delta_sums`: rows by the cells of hemicubes alone
 //! - `point`: the factors from a point
 
 mod average;
 mod contacts;
 mod contour;
+mod delta_sums;
 mod method;
 mod point;
 mod row;
@@ -25,23 +27,15 @@ use crate::mesh::Patch;
 use crate::visibility::{Occluders, PatchHierarchy};
 use crate::watch;
 
-pub use method::FormFactorMethod;
+pub use method::{Assembled, FormFactorMethod};
 pub use point::factors_at;
 
 use average::exchanges_of;
+use contacts::Contacts;
+use contour::Exchanges;
+use delta_sums::DeltaSums;
 use row::{SparseRow, merged, rows_of};
 use views::{HemicubeView, RayView};
-
-/// The form factors of a scene.
-#[derive(Clone, Debug)]
-pub struct Assembled {
-    /// The matrix.
-    pub factors: FormFactors,
-    /// Share of each patch's light that meets the black backs of others.
-    pub on_backs: Vec<f64>,
-    /// Rows that were finished; the others are empty.
-    pub rows: usize,
-}
 
 /// Rows whose sums are nearer to one than this have no light on backs worth looking for.
 const CLOSED: f64 = 4e-4;
@@ -52,16 +46,17 @@ const LEAST_RESOLUTION: u32 = 32;
 /// The form factors between all `patches`, telling `observe` how much is done, 0..=1; when that breaks
 /// off, the rows that are missing are empty, and light on backs is not looked for any more.
 ///
-/// By hemicubes and rays, each pair has two estimates; their mean is taken, so that all matrices are
-/// reciprocal and the sums of their rows tell how good they are.
+/// By hemicubes and rays, each pair has two estimates; their mean is taken, so that matrices are
+/// reciprocal and the sums of their rows tell how good they are. By sums over a hemicube's cells, rows are left as they
+/// are: there, reciprocity tells.
 pub fn assemble(
     patches: &[Patch],
     occluders: &Occluders,
     method: FormFactorMethod,
     mut observe: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Assembled {
-    let contacts = contacts::Contacts::find(patches, occluders);
-    let exchanges = contour::Exchanges::new(patches, occluders, &contacts);
+    let contacts = Contacts::find(patches, occluders);
+    let exchanges = Exchanges::new(patches, occluders, &contacts);
     let areas: Vec<f64> = patches.iter().map(|patch| patch.area).collect();
     let [looked, all] = if method == FormFactorMethod::Contour { [0.9, 0.9] } else { [0.7, 0.9] };
     let mut look = |done| observe(looked * done);
@@ -76,6 +71,9 @@ pub fn assemble(
             let view = || HemicubeView::new(patches, Hemicube::new(&delta, &scene, occluders));
             let row = |view: &mut HemicubeView<'_>, i| sampled::row(patches, &contacts, i, view);
             rows_of(patches.len(), view, row, &mut look)
+        }
+        FormFactorMethod::HemicubeSum(cells) => {
+            return DeltaSums::new(patches, &contacts, occluders, cells).assembled(observe);
         }
         FormFactorMethod::Rays(count) => {
             let (sphere, hierarchy) = (Sphere::new(count as usize), PatchHierarchy::new(patches));

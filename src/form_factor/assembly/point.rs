@@ -1,5 +1,6 @@
 //! The form factors from a point.
 
+use super::delta_sums::CellRow;
 use super::method::FormFactorMethod;
 use super::sampled::{PatchVisibility, SeenPatch, turn};
 use super::views::{HemicubeView, RayView};
@@ -15,7 +16,7 @@ const TURNS: usize = 4;
 /// Form factors (0..=1) from a point to what it sees of each patch.
 ///
 /// By contours they are exact; by hemicubes and rays they are for patches of which nothing is hidden,
-/// and means of four looks for the others.
+/// and means of four looks for the others; by sums over a hemicube's cells, those of one look.
 pub fn factors_at(
     patches: &[Patch],
     occluders: &Occluders,
@@ -33,6 +34,16 @@ pub fn factors_at(
             let hemicube = Hemicube::new(&delta, &scene, occluders);
             let mut view = HemicubeView::new(patches, hemicube);
             mean(patches.len(), |turn| view.seen_from(point, turn))
+        }
+        FormFactorMethod::HemicubeSum(resolution) => {
+            let (delta, scene) =
+                (DeltaFactors::new(resolution as usize), HemicubeScene::new(patches));
+            let mut hemicube = Hemicube::new(&delta, &scene, occluders);
+            let mut factors = vec![0.0; patches.len()];
+            for (patch, sum) in CellRow::of(hemicube.look(point, turn(0))).fronts {
+                factors[patch as usize] = sum;
+            }
+            factors
         }
         FormFactorMethod::Rays(count) => {
             let (sphere, hierarchy) = (Sphere::new(count as usize), PatchHierarchy::new(patches));

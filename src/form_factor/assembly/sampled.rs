@@ -43,7 +43,7 @@ pub(super) fn row(
 ) -> SparseRow {
     let mut from_points = |level: u32| {
         let points = points(&patches[index], 1 << level);
-        let free = points.into_iter().filter(|(eye, _)| !contacts.cover(index, *eye));
+        let free = points.into_iter().filter(|(eye, _)| contacts.covering(index, *eye).is_none());
         Sum::from_points(free, patches, index, view)
     };
     let mut before = from_points(0);
@@ -98,7 +98,7 @@ impl Sum {
 
 /// Points that stand for parts of a patch, `cells` along each side of its quadrilaterals, and the
 /// parts' shares of its area.
-fn points(patch: &Patch, cells: u32) -> Vec<(DVec3, f64)> {
+pub(super) fn points(patch: &Patch, cells: u32) -> Vec<(DVec3, f64)> {
     let middle = |k: u32| (f64::from(k) + 0.5) / f64::from(cells);
     let mut points: Vec<(DVec3, f64)> = quadrilaterals(&patch.corners)
         .flat_map(|cell| {

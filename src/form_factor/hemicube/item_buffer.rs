@@ -3,6 +3,7 @@
 use glam::Vec3;
 use pulp::Simd;
 
+use super::cells::FaceCell;
 use super::clip::FACES;
 use super::delta::DeltaFactors;
 use super::raster::{Footprint, LANES, count_up};
@@ -164,15 +165,10 @@ impl<'a> ItemBuffer<'a> {
     /// The patch that the cell in a direction above the horizon, in the hemicube's frame, and all around it see, if it
     /// is one and the same.
     pub(super) fn item_around(&self, direction: Vec3) -> Option<u32> {
-        let depths = FACES.map(|face| face.look(direction).z);
-        let face =
-            (1..FACES.len()).fold(0, |best, k| if depths[k] > depths[best] { k } else { best });
-        let (p, shape) = (FACES[face].look(direction), &FACES[face]);
-        let half = self.resolution() as f32 / 2.0;
-        let column = ((p.x / p.z + 1.0) * half) as usize;
-        let row = ((p.y / p.z - shape.lowest) * half) as usize;
+        let resolution = self.resolution();
+        let FaceCell { face, row, column } = FaceCell::along(direction, resolution);
         let is_inside = |at: usize, count: usize| at >= 1 && at + 1 < count;
-        if !is_inside(column, self.resolution()) || !is_inside(row, shape.rows(self.resolution())) {
+        if !is_inside(column, resolution) || !is_inside(row, FACES[face].rows(resolution)) {
             return None;
         }
         let item = self.items(face, row)[column];

@@ -67,6 +67,11 @@ impl<'a> Hemicube<'a> {
         SurfacePoint::new(self.frame.eye, self.frame.normal())
     }
 
+    /// A direction of its frame, whose z is the normal, in the scene.
+    pub fn to_scene(&self, direction: DVec3) -> DVec3 {
+        self.frame.axes.transpose() * direction
+    }
+
     /// Looks from `eye` along its normal, turned about it by `turn` radians.
     pub fn look(&mut self, eye: SurfacePoint, turn: f64) -> &Self {
         self.frame = Frame::new(eye, turn);

@@ -10,13 +10,14 @@
 //! widths and compiled twice; which of both runs is found out when it runs, and changes no bit.
 //!
 //! - `frame`, `delta`, `resolution`: where a hemicube is, what its cells weigh, and how many are enough
-//! - `clip`, `raster`: what of a polygon each face sees, and which of its cells
+//! - `clip`, `cells`, `raster`: what of a polygon each face sees, where cells are, and which of them a polygon covers
 //! - `item_buffer`: what each cell sees
 //! - `scene`: the patches, laid out to be drawn
 //! - `ray_fill`: rays instead of drawing
 //! - `coverage`, `look`, `probe`, `seen`: a look, and what it says of patches
 //! - `chart`, `element_map`, `elements`: what it says of elements
 
+mod cells;
 mod chart;
 mod clip;
 mod coverage;
@@ -33,6 +34,7 @@ mod resolution;
 mod scene;
 mod seen;
 
+pub use cells::CellLayout;
 pub use coverage::{PatchCoverage, VisiblePatch};
 pub use delta::DeltaFactors;
 pub use element_map::ElementMap;

@@ -6,6 +6,7 @@
 //!
 //! [Cohen, Chen, Wallace and Greenberg 1988]: https://doi.org/10.1145/54852.378487
 
+mod conserve;
 mod row_cache;
 mod state;
 
@@ -14,7 +15,6 @@ mod shooting;
 mod ambient;
 mod rows;
 
-use super::links::{Link, Row};
 use super::relaxation::{Convergence, Relaxation, RelaxationStep, RelaxationSystem};
 use super::solution::Phase;
 use super::stop::Stop;
@@ -22,6 +22,7 @@ use crate::colour::Rgb;
 use crate::error::{Error, Result};
 use crate::settings::Settings;
 
+use conserve::Carried;
 pub(super) use shooting::Shooting;
 pub(super) use state::State;
 use state::{ShootingRecord, last_kept};
@@ -143,10 +144,9 @@ impl RelaxationSystem for Shooting<'_, '_> {
         }
         let power = released * self.areas[shooter];
         let row = self.rows.take(shooter);
-        let arriving = power * (1.0 - row.escaped - row.on_backs);
-        let scale = conserve(arriving, &row, &self.released);
+        let Carried { scale, even, outside } = Carried::all(power, &row, &self.released);
         for link in &row.links {
-            let power = scale * self.released[link.source.index()] * link.exchange;
+            let power = (scale * self.released[link.source.index()] + even) * link.exchange;
             let cluster = self.context.clusters.of(self.mesh[link.receiver].patch);
             let shared = self.context.clusters.members(cluster).len() > 1;
             let area = if shared { self.areas[cluster] } else { self.mesh[link.receiver].area };
@@ -157,8 +157,8 @@ impl RelaxationSystem for Shooting<'_, '_> {
                 self.reflectances[cluster] * power / self.areas[cluster];
             self.state.energy.absorbed += (Rgb::ONE - self.reflectances[cluster]) * power;
         }
-        self.state.energy.escaped += power * row.escaped;
-        self.state.energy.on_backs += power * row.on_backs;
+        self.state.energy.escaped += power * row.escaped * outside;
+        self.state.energy.on_backs += power * row.on_backs * outside;
         self.rows.put_back(shooter, row);
         self.state.shots += 1;
         released
@@ -170,15 +170,4 @@ fn diverged(settings: &Settings) -> Error {
     let (method, omega) = (settings.method.name(), settings.omega);
     let message = format!("{method} with {omega} lets the light grow without end; use 1 or less");
     Error::Setting { name: "omega", message }
-}
-
-/// Factors by which what the links of a row carry becomes the `power` that should arrive, W.
-///
-/// Elements of a shooter near others see more or less of them than the whole does; no light may be
-/// lost by that, or come from nowhere.
-fn conserve(power: Rgb, row: &Row, released: &[Rgb]) -> Rgb {
-    let carry = |link: &Link| released[link.source.index()] * link.exchange;
-    let carried: Rgb = row.links.iter().map(carry).sum();
-    let scale = Rgb::select(carried.cmpne(Rgb::ZERO), power / carried, Rgb::ONE);
-    scale.clamp(Rgb::splat(0.8), Rgb::splat(1.25))
 }

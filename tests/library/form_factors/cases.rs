@@ -229,3 +229,46 @@ fn enclosures_have_their_matrices_by_every_method() {
         }
     }
 }
+
+/// Cases with a factor from the receiver's centre, and the differences from it by a method.
+fn errors_from_centre(method: FormFactorMethod) -> Vec<(Case, f64)> {
+    let error = |case: Case| {
+        let centre = case.centre_value?;
+        let error = (from_centre(&case, method) - centre).abs();
+        Some((case, error))
+    };
+    suite().cases.into_iter().filter_map(error).collect()
+}
+
+#[test]
+fn plain_sums_over_cells_err_as_hemicubes_are_known_to_and_converge() {
+    for (case, error) in errors_from_centre(FormFactorMethod::HemicubeSum(256)) {
+        // The known error is the worst of eight turns; this is one more turn.
+        let known = 2.0 * case.hemicube_256.unwrap_or(0.0) + 1e-5;
+        assert!(error <= known, "{}: off by {error}, known for {known}", case.id);
+    }
+    let total = |method| errors_from_centre(method).iter().map(|(_, error)| error).sum::<f64>();
+    let [coarse, middle, fine] = [64, 256, 1024].map(FormFactorMethod::HemicubeSum).map(total);
+    assert!(middle < coarse / 3.0 && fine < middle / 3.0, "{coarse}, {middle}, {fine}");
+    let corrected = total(FormFactorMethod::Hemicube(256));
+    assert!(corrected < middle / 10.0, "{corrected} where amounts are exact, {middle} by cells");
+}
+
+#[test]
+fn of_what_is_smaller_than_a_cell_a_whole_one_is_seen_or_nothing() {
+    const CELLS: u32 = 64;
+    let side = 0.5 / f64::from(CELLS);
+    let eye = SurfacePoint::new(DVec3::ZERO, DVec3::Y);
+    let mut seen = 0;
+    for k in 0..150 {
+        let at = |step: f64| (f64::from(k) * step).fract() - 0.5;
+        let low = DVec3::new(at(0.618_034), 1.0, at(0.754_878));
+        let square = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 0.0, 1.0), DVec3::Z];
+        let (patches, occluders) = patches_of(&[&square.map(|p| low + side * p).to_vec()]);
+        let [exact, sum] = [FormFactorMethod::Contour, FormFactorMethod::HemicubeSum(CELLS)]
+            .map(|method| factors_at(&patches, &occluders, method, eye).iter().sum::<f64>());
+        assert!(exact > 0.0 && (sum == 0.0 || sum > 10.0 * exact), "{sum} for {exact}");
+        seen += u32::from(sum > 0.0);
+    }
+    assert!((1..50).contains(&seen), "{seen} of 150 cover the centre of a cell");
+}

@@ -49,6 +49,23 @@ fn rows_of_a_closed_room_sum_to_one_by_every_method() {
     }
 }
 
+#[test]
+fn rows_of_plain_sums_are_full_however_coarse_but_not_reciprocal() {
+    let exact = matrix(&room(), 1.0, FormFactorMethod::Contour).factors;
+    let mut errors = Vec::new();
+    for cells in [32, 512] {
+        let assembled = matrix(&room(), 1.0, FormFactorMethod::HemicubeSum(cells));
+        assert!(closure(&assembled) < 1e-4, "{cells} cells: {}", closure(&assembled));
+        let factors = assembled.factors;
+        assert!(factors.reciprocity() > 0.01, "{cells} cells: {}", factors.reciprocity());
+        let pairs = (0..exact.len()).flat_map(|i| (0..exact.len()).map(move |j| (i, j)));
+        let errors_of = pairs.map(|(i, j)| (factors.get(i, j) - exact.get(i, j)).abs());
+        errors.push(errors_of.sum::<f64>() / exact.len() as f64);
+    }
+    // What is left is that a centre stands for all of its patch.
+    assert!(errors[1] < 0.9 * errors[0] && errors[1] > 0.01, "{errors:?}");
+}
+
 /// A room of a metre's patches with a box of which two corners jut out by `width`, m, over borders of
 /// patches of the floor, and a thin screen that cuts as little off the corner of another.
 fn room_with_slivers(width: f64) -> Scene {

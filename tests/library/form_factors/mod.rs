@@ -187,6 +187,26 @@ proptest! {
     }
 }
 
+/// Seen from the floor, a wall whose foot is below it by rounding is hidden by what stands before it as any other.
+#[test]
+fn a_foot_below_the_horizon_by_rounding_hides_nothing_less() {
+    let eye = SurfacePoint::new(DVec3::new(0.36, 0.0, 0.14), DVec3::Y);
+    let screen = [(0.0, 0.25), (0.33, 0.25), (0.33, 0.42), (0.0, 0.42)];
+    let screen = screen.map(|(y, z)| DVec3::new(0.423 + 0.3 * (z - 0.25), y, z));
+    let occluders = Occluders::from_polygons(&[&screen], 1e-7);
+    let visible = |foot: f64| -> f64 {
+        let wall = [(foot, foot), (0.5488, 0.5592), (0.5488, 0.0)];
+        let wall = wall.map(|(y, z)| DVec3::new(0.5528 + 0.0058 * y, y, z));
+        let normal = (wall[1] - wall[0]).cross(wall[2] - wall[0]).normalize();
+        let pieces = occluders.visible_pieces(eye.position, &eye.above().clip(&wall), normal);
+        pieces.iter().map(|piece| point_to_polygon(eye.position, eye.normal, piece)).sum()
+    };
+    let exact = visible(0.0);
+    for foot in [-4e-17, 3e-17, -1e-16] {
+        assert!((visible(foot) - exact).abs() < 1e-9, "{} for {exact}", visible(foot));
+    }
+}
+
 #[test]
 fn direct_light_under_a_blocker_is_the_integral_over_the_lamp() {
     let mut stage = Stage::default();

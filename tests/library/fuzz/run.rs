@@ -13,8 +13,20 @@ use crate::load::folder::Folder;
 /// Longer than any small file may take.
 const SLOW: Duration = Duration::from_secs(20);
 
+/// Least share of the inputs that the program must accept.
+const LEAST_ACCEPTED: f64 = 0.02;
+
 /// Files by name, the one to begin with first.
 pub(crate) type Files = Vec<(String, Vec<u8>)>;
+
+/// What the program made of an input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// It was refused with words, or passed over: nothing of what comes after reading was tried.
+    Refused,
+    /// It was read, and solved where the target is about solving.
+    Accepted,
+}
 
 /// A kind of input and what has to hold for it.
 pub(crate) struct Target {
@@ -23,36 +35,44 @@ pub(crate) struct Target {
     pub(crate) quick: u64,
     pub(crate) files: fn(&mut Rng) -> Files,
     /// Panics if the program does not stand up to the file.
-    pub(crate) check: fn(&Folder, &str),
+    pub(crate) check: fn(&Folder, &str) -> Outcome,
 }
 
-/// Tries `seeds` until `time` is over; panics with a list of those that failed.
+/// Tries `seeds` until `time` is over; panics with a list of those that failed, or if hardly any was accepted: then
+/// nothing was tested but how files are refused.
 pub(crate) fn fuzz(target: &Target, seeds: Range<u64>, time: Duration) {
     let start = Instant::now();
-    let (mut tried, mut failures) = (0, Vec::new());
+    let (mut tried, mut accepted, mut failures) = (0, 0, Vec::new());
     for seed in seeds {
         if start.elapsed() > time || failures.len() >= 20 {
             break;
         }
         tried += 1;
-        if let Err(why) = try_seed(target, seed) {
-            eprintln!("{} seed {seed}: {why}", target.name);
-            failures.push((seed, why));
+        match try_seed(target, seed) {
+            Ok(outcome) => accepted += u64::from(outcome == Outcome::Accepted),
+            Err(why) => {
+                eprintln!("{} seed {seed}: {why}", target.name);
+                failures.push((seed, why));
+            }
         }
     }
-    eprintln!("{}: {tried} cases, {:.0} s", target.name, start.elapsed().as_secs_f64());
+    let seconds = start.elapsed().as_secs_f64();
+    eprintln!("{}: {tried} cases, {accepted} accepted, {seconds:.0} s", target.name);
     assert!(failures.is_empty(), "{}: {failures:#?}", target.name);
+    // Of few cases, all may be bent too far.
+    let least = (LEAST_ACCEPTED * tried as f64) as u64;
+    assert!(accepted >= least, "{}: only {accepted} of {tried} cases were accepted", target.name);
 }
 
-fn try_seed(target: &Target, seed: u64) -> Result<(), String> {
+fn try_seed(target: &Target, seed: u64) -> Result<Outcome, String> {
     let files = (target.files)(&mut Rng::with_seed(seed));
     let folder = files.iter().fold(Folder::new(), |folder, (name, bytes)| folder.with(name, bytes));
     let begun = Instant::now();
     let checked = catch_unwind(AssertUnwindSafe(|| (target.check)(&folder, &files[0].0)));
     let failed = match checked {
         Err(payload) => Err(message(&*payload)),
-        Ok(()) if begun.elapsed() > SLOW => Err(format!("took {:?}", begun.elapsed())),
-        Ok(()) => Ok(()),
+        Ok(_) if begun.elapsed() > SLOW => Err(format!("took {:?}", begun.elapsed())),
+        Ok(outcome) => Ok(outcome),
     };
     if failed.is_err() {
         keep(&format!("fuzz-{}-{seed}", target.name), &files);

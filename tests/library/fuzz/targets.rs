@@ -14,7 +14,7 @@ use radiosity::{Length, Scene, Settings, reconstruct, solve, surfaces_of};
 
 use super::bend::{bytes, often, text, tree};
 use super::corpus;
-use super::run::{Files, Target};
+use super::run::{Files, Outcome, Target};
 use crate::load::asset::Asset;
 use crate::load::folder::{Folder, red_png};
 
@@ -169,8 +169,8 @@ fn loaded(folder: &Folder, name: &str) -> Option<Scene> {
     }
 }
 
-fn load(folder: &Folder, name: &str) {
-    let Some(scene) = loaded(folder, name) else { return };
+fn load(folder: &Folder, name: &str) -> Outcome {
+    let Some(scene) = loaded(folder, name) else { return Outcome::Refused };
     assert!(!scene.faces.is_empty());
     assert!(scene.positions.iter().all(|p| p.is_finite()));
     for face in &scene.faces {
@@ -184,10 +184,11 @@ fn load(folder: &Folder, name: &str) {
         let surfaces = surfaces_of(&scene);
         assert!(surfaces.area().is_finite());
     }
+    Outcome::Accepted
 }
 
 /// The program refuses or obeys; the scene does not exist, so that it does little else.
-fn configure(folder: &Folder, name: &str) {
+fn configure(folder: &Folder, name: &str) -> Outcome {
     let directory = folder.path("");
     let output = Command::new(env!("CARGO_BIN_EXE_radiosity"))
         .args(["solve", "none.obj", "--config", name])
@@ -197,14 +198,15 @@ fn configure(folder: &Folder, name: &str) {
     let words = String::from_utf8_lossy(&output.stderr);
     assert!(matches!(output.status.code(), Some(1 | 2)), "{:?}: {words}", output.status);
     assert!(!words.contains("panicked") && !words.is_empty(), "{words}");
+    if words.contains("none.obj") { Outcome::Accepted } else { Outcome::Refused }
 }
 
 /// A luminaire sends no less than nothing anywhere, and in all what its directions add up to.
-fn shine(folder: &Folder, name: &str) {
+fn shine(folder: &Folder, name: &str) -> Outcome {
     let mut scene = Scene::default();
     if let Err(error) = scene.add_luminaire(&folder.path(name), DVec3::Y, 30.0) {
         assert!(error.to_string().contains(name), "{error}");
-        return;
+        return Outcome::Refused;
     }
     let [NamedLight { light: Light::Luminaire { photometry, .. }, .. }] = scene.lights.as_slice()
     else {
@@ -222,12 +224,13 @@ fn shine(folder: &Folder, name: &str) {
     });
     let most = most.fold(0.0, f64::max);
     assert!(most == 0.0 || flux > 0.0, "{most} cd and no light");
+    Outcome::Accepted
 }
 
-fn light(folder: &Folder, name: &str) {
-    let Some(mut scene) = loaded(folder, name) else { return };
+fn light(folder: &Folder, name: &str) -> Outcome {
+    let Some(mut scene) = loaded(folder, name) else { return Outcome::Refused };
     if scene.faces.len() > MOST_FACES {
-        return;
+        return Outcome::Refused;
     }
     if !scene.is_lit() {
         let lamp = scene.faces[0].material.index();
@@ -248,11 +251,12 @@ fn light(folder: &Folder, name: &str) {
         true => ControlFlow::Continue(()),
         false => ControlFlow::Break(Cancellation::TimeLimit),
     };
-    let Ok(solution) = solve(&surfaces, &settings, hurry) else { return };
+    let Ok(solution) = solve(&surfaces, &settings, hurry) else { return Outcome::Refused };
     let mesh = reconstruct(&surfaces, &solution);
     assert!(mesh.positions.iter().all(|p| p.is_finite()));
     assert!(mesh.normals.iter().all(|n| n.is_finite()));
     assert!(mesh.radiosity.iter().all(|b| b.is_finite() && b.min_element() >= 0.0));
     assert!(mesh.irradiance.iter().all(|i| i.direct.is_finite() && i.indirect.is_finite()));
     assert!(solution.energy.imbalance().is_finite());
+    Outcome::Accepted
 }
