@@ -22,8 +22,8 @@
 //!
 //! The modules, in the order in which data moves; one may use those to its left, never those to its right:
 //!
-//! scene → surface → mesh → visibility → `form_factor` → direct → refine → solver → reconstruct →
-//! lightmap → tone → export, render → page → compare
+//! geometry → scene → surface → mesh → light → visibility → `form_factor` → direct → refine → solver →
+//! reconstruct → lightmap → tone → export, render → page → compare
 //!
 //! Features, all of them on unless left out: `pages` brings [`mod@page`], `compare` brings `pages` and [`mod@compare`], and
 //! `cli` both and the command.
@@ -77,10 +77,11 @@
 pub mod colour;
 pub mod error;
 mod file;
-pub mod geometry;
 mod ids;
 pub mod settings;
 mod watch;
+
+pub mod geometry;
 
 pub mod scene;
 pub mod surface;
