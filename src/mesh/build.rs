@@ -84,7 +84,7 @@ impl Mesh {
 
     /// An outline with its corners moved to vertices that are close to them, each passed once.
     fn settled(&self, surface: SurfaceId, outline: &[DVec2]) -> Convex {
-        let apart = self.index.sheets[surface.index()].apart;
+        let apart = self.index.by_surface[surface.index()].apart;
         let mut settled = Convex::new();
         for &corner in outline {
             let corner = self.place(surface, corner).unwrap_or(corner);
@@ -119,8 +119,8 @@ impl Mesh {
 
     /// Where on a surface the first vertex is that counts as being at a position.
     fn place(&self, surface: SurfaceId, position: DVec2) -> Option<DVec2> {
-        let VertexIndex { cells, sheets, .. } = &self.index;
-        let apart = sheets[surface.index()].apart;
+        let VertexIndex { cells, by_surface, .. } = &self.index;
+        let apart = by_surface[surface.index()].apart;
         let keys = cells_around(surface.0, position.extend(0.0), apart);
         let vertices = keys.flat_map(|key| cells.of(key)).map(|number| &self[VertexId(number)]);
         let mut on_surface = vertices.filter(|vertex| vertex.surface == surface);
@@ -145,7 +145,7 @@ impl Mesh {
     /// The vertex of a patch at a place on an edge; where one of any surface is close by on it, at that place.
     pub(super) fn vertex_on(&mut self, patch: PatchId, edge: Segment, position: DVec2) -> VertexId {
         self.mark();
-        let SurfaceVertices { plane, .. } = &self.index.sheets[self[patch].surface.index()];
+        let SurfaceVertices { plane, .. } = &self.index.by_surface[self[patch].surface.index()];
         let reach = CLOSE * edge[0].distance(edge[1]);
         let flat = |place: DVec3| {
             let flat = plane.flatten(place);
@@ -160,9 +160,9 @@ impl Mesh {
 
     /// Makes landmarks of the vertices that are none yet.
     fn mark(&mut self) {
-        let VertexIndex { sheets, landmarks, .. } = &mut self.index;
+        let VertexIndex { by_surface, landmarks, .. } = &mut self.index;
         for vertex in &self.vertices[landmarks.marked..] {
-            landmarks.add(sheets[vertex.surface.index()].plane.lift(vertex.position));
+            landmarks.add(by_surface[vertex.surface.index()].plane.lift(vertex.position));
         }
         landmarks.marked = self.vertices.len();
     }
@@ -186,7 +186,7 @@ impl Mesh {
 
     /// The plane of a patch.
     pub fn plane(&self, patch: PatchId) -> &Plane {
-        &self.index.sheets[self[patch].surface.index()].plane
+        &self.index.by_surface[self[patch].surface.index()].plane
     }
 
     /// What is nearer than this, m, counts as one place on a surface.
@@ -201,7 +201,8 @@ impl Mesh {
     /// The contact lines that run through a place on a patch.
     fn contacts_at(&self, patch: PatchId, position: DVec2) -> impl Iterator<Item = &Contact> {
         let Patch { surface, contacts, .. } = &self[patch];
-        let SurfaceVertices { contacts: lines, apart, .. } = &self.index.sheets[surface.index()];
+        let SurfaceVertices { contacts: lines, apart, .. } =
+            &self.index.by_surface[surface.index()];
         let lines = contacts.iter().map(|&line| &lines[line as usize]);
         lines.filter(move |line| polygon::distance(line.segment, position) <= *apart)
     }
@@ -280,7 +281,7 @@ impl VertexIndex {
     /// The pieces of a surface, in the order of its patches.
     fn pieces(&self, surfaces: &Surfaces, id: SurfaceId, settings: &Settings) -> Vec<PatchOutline> {
         let surface = &surfaces[id];
-        let SurfaceVertices { contacts, apart, .. } = &self.sheets[id.index()];
+        let SurfaceVertices { contacts, apart, .. } = &self.by_surface[id.index()];
         let flat = |line: &Contact| boxes::around(line.segment.map(|p| p.extend(0.0)));
         let tree = Tree::new(contacts.iter().map(flat).collect());
         let piece = |outline: Convex| PatchOutline {

@@ -22,7 +22,7 @@ const STRAIGHT: f64 = 1e-6;
 /// Finds the vertex at a place.
 #[derive(Clone, Debug)]
 pub(super) struct VertexIndex {
-    pub(super) sheets: Vec<SurfaceVertices>,
+    pub(super) by_surface: Vec<SurfaceVertices>,
     /// Vertices by surface and place on it; at one place, where a contact line runs through it, one for each patch.
     pub(super) cells: Cells,
     /// Places of vertices of all surfaces.
@@ -51,15 +51,15 @@ impl VertexIndex {
             apart: apart(surfaces, surface),
             contacts: surface.contacts.iter().copied().chain(inner_corners(surface)).collect(),
         };
-        let sheets = surfaces.list.iter().map(sheet).collect();
+        let by_surface = surfaces.list.iter().map(sheet).collect();
         let shortest = settings.min_element.metres(surfaces.extent);
         let landmarks = Landmarks::new(epsilon, (FARTHEST * shortest).max(epsilon));
-        Self { sheets, cells: Cells::default(), landmarks, shortest, epsilon }
+        Self { by_surface, cells: Cells::default(), landmarks, shortest, epsilon }
     }
 
     /// The cell around a place on a surface.
     pub(super) fn key(&self, surface: SurfaceId, place: DVec2) -> u64 {
-        cell_key(surface.0, place.extend(0.0), self.sheets[surface.index()].apart)
+        cell_key(surface.0, place.extend(0.0), self.by_surface[surface.index()].apart)
     }
 }
 

@@ -76,24 +76,27 @@ pub fn solve_by_light(
     for (alone, lighting) in alone.iter().zip(&mut lights) {
         direct_pass::refine(alone.context(), settings, &mut lighting.on(&mut mesh), &mut observer);
     }
-    let mut exchanges = Vec::new();
+    let mut interreflections = Vec::new();
     for (alone, lighting) in alone.iter().zip(&mut lights) {
         let (context, lit) = (alone.context(), &mut lighting.on(&mut mesh));
         direct_light::light_leaves(context, lit, &mut observer);
-        let mut exchange =
+        let mut interreflection =
             Interreflection::new(context, settings, lit.mesh, lit.light, &mut observer)?;
-        exchange.reach_vertices(context, settings, lit, &mut observer);
-        exchanges.push(exchange);
+        interreflection.reach_vertices(context, settings, lit, &mut observer);
+        interreflections.push(interreflection);
     }
-    let finish =
-        |((alone, mut lighting), exchange): ((&Alone<'_>, VertexLighting), Interreflection)| {
-            let mut mesh = mesh.clone();
-            direct_light::light_leaves(alone.context(), &mut lighting.on(&mut mesh), &mut observer);
-            // It has done without the elements that other lights asked for later.
-            interpolate(&mesh, &mut lighting.light, REFLECTED);
-            exchange.solution(mesh, alone.optics.clone(), lighting)
-        };
-    let solutions: Vec<Solution> = alone.iter().zip(lights).zip(exchanges).map(finish).collect();
+    let finish = |((alone, mut lighting), interreflection): (
+        (&Alone<'_>, VertexLighting),
+        Interreflection,
+    )| {
+        let mut mesh = mesh.clone();
+        direct_light::light_leaves(alone.context(), &mut lighting.on(&mut mesh), &mut observer);
+        // It has done without the elements that other lights asked for later.
+        interpolate(&mesh, &mut lighting.light, REFLECTED);
+        interreflection.solution(mesh, alone.optics.clone(), lighting)
+    };
+    let solutions: Vec<Solution> =
+        alone.iter().zip(lights).zip(interreflections).map(finish).collect();
     let strengths: Vec<Rgb> = scenes.iter().map(|scaled| scaled.strength).collect();
     Ok((sum(&solutions, &strengths), solutions))
 }

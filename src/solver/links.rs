@@ -30,5 +30,5 @@ pub(super) struct Link {
     pub(super) source: ElementId,
     pub(super) receiver: ElementId,
     /// Form factor from source to receiver times the source's area, m².
-    pub(super) exchange: f64,
+    pub(super) exchange_area: f64,
 }

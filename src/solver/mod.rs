@@ -133,7 +133,8 @@ pub fn solve_with(
     direct_pass::refine(context, settings, lit, &mut observer);
     direct_light::light_leaves(context, lit, &mut observer);
     let snapshots = snapshots::snapshots(context, settings, lit, snapshots, &mut observer)?;
-    let mut exchange = Interreflection::new(context, settings, lit.mesh, lit.light, &mut observer)?;
-    exchange.reach_vertices(context, settings, lit, &mut observer);
-    Ok((exchange.solution(mesh, optics, lighting), snapshots))
+    let mut interreflection =
+        Interreflection::new(context, settings, lit.mesh, lit.light, &mut observer)?;
+    interreflection.reach_vertices(context, settings, lit, &mut observer);
+    Ok((interreflection.solution(mesh, optics, lighting), snapshots))
 }

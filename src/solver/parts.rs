@@ -101,7 +101,7 @@ impl Shot<'_, '_> {
     fn add(&self, receiver: ElementId, factor: f64, row: &mut Row) {
         if factor > 0.0 && self.mesh[receiver].area > 0.0 {
             let source = self.mesh[self.part.representative].root;
-            row.links.push(Link { source, receiver, exchange: factor * self.part.area });
+            row.links.push(Link { source, receiver, exchange_area: factor * self.part.area });
         }
     }
 }

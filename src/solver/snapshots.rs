@@ -31,12 +31,12 @@ pub(super) fn snapshots(
             continue;
         }
         let settings = Settings { max_shots: Some(most), ..settings.clone() };
-        let exchange = Interreflection::new(context, &settings, mesh, light, observer)?;
-        if exchange.stop == Stop::ShotLimit {
+        let interreflection = Interreflection::new(context, &settings, mesh, light, observer)?;
+        if interreflection.stop == Stop::ShotLimit {
             let (mesh, mut light) = (Mesh::clone(mesh), VertexLight::clone(light));
-            exchange.spread(&mesh, &mut light);
+            interreflection.spread(&mesh, &mut light);
             let lighting = VertexLighting { light, work: **work };
-            snapshots.push(exchange.solution(mesh, context.optics.clone(), lighting));
+            snapshots.push(interreflection.solution(mesh, context.optics.clone(), lighting));
         }
     }
     *observer.checkpoint = checkpoint;

@@ -68,10 +68,10 @@ fn row_of_patch(transport: Transport<'_>, hemicube: &mut Hemicube<'_>, shooter: 
     let mut row = Row::default();
     let mut open = vec![patch.root];
     while let Some(source) = open.pop() {
-        let place = Place::new(mesh, source);
-        let eye = SurfacePoint::new(place.centre, place.normal);
+        let placed = PlacedElement::new(mesh, source);
+        let eye = SurfacePoint::new(placed.centre, placed.normal);
         let hemicube = hemicube.look(eye, turn(source.index() as f64));
-        if transport.looks_by_parts(hemicube, source, place.size) {
+        if transport.looks_by_parts(hemicube, source, placed.size) {
             open.extend_from_slice(&mesh[source].children);
             continue;
         }
@@ -88,15 +88,15 @@ fn row_of_patch(transport: Transport<'_>, hemicube: &mut Hemicube<'_>, shooter: 
         row.on_backs += facets.on_backs * share;
         for (cluster, cover) in facets.fronts {
             let receiver = clusters.receiver(mesh, cluster);
-            let gap = clusters.centre(cluster).distance(place.centre);
+            let gap = clusters.centre(cluster).distance(placed.centre);
             // Rays do not tell what a patch covers but its form factor; near ones, projection does.
-            let exchange =
-                if gap < NEAR * (place.size + clusters.size(cluster)) && !hemicube.is_by_rays() {
-                    parts::exchange_nearby(mesh, &place.corners, clusters.members(cluster), cover)
+            let exchange_area =
+                if gap < NEAR * (placed.size + clusters.size(cluster)) && !hemicube.is_by_rays() {
+                    parts::exchange_nearby(mesh, &placed.corners, clusters.members(cluster), cover)
                 } else {
                     cover.kept * mesh[source].area
                 };
-            row.links.push(Link { source, receiver, exchange });
+            row.links.push(Link { source, receiver, exchange_area });
         }
     }
     row
@@ -110,7 +110,7 @@ struct Linking<'a, 'b> {
 }
 
 /// An element in space.
-struct Place {
+struct PlacedElement {
     element: ElementId,
     corners: SmallVec<[DVec3; 8]>,
     centre: DVec3,
@@ -124,7 +124,7 @@ impl Linking<'_, '_> {
         let mut open: SmallVec<[(ElementId, ElementId); 32]> = SmallVec::new();
         open.push((source, self.mesh[self.sight.patch].root));
         while let Some((source, receiver)) = open.pop() {
-            let (from, to) = (self.place(source), self.place(receiver));
+            let (from, to) = (self.placed(source), self.placed(receiver));
             let near = from.centre.distance(to.centre) < NEAR * (from.size + to.size);
             let (sources, receivers) = (&self.mesh[source].children, &self.mesh[receiver].children);
             if near && !receivers.is_empty() && (to.size >= from.size || sources.is_empty()) {
@@ -132,16 +132,22 @@ impl Linking<'_, '_> {
             } else if near && !sources.is_empty() {
                 open.extend(sources.iter().map(|&part| (part, receiver)));
             } else {
-                let exchange = self.exchange(&from, &to, near, &mut row.factors);
-                if exchange > 0.0 {
-                    row.links.push(Link { source, receiver, exchange });
+                let exchange_area = self.exchange_area(&from, &to, near, &mut row.factors);
+                if exchange_area > 0.0 {
+                    row.links.push(Link { source, receiver, exchange_area });
                 }
             }
         }
     }
 
     /// Visible form factor times area, m²: by reciprocity the same from source to receiver and back.
-    fn exchange(&self, source: &Place, receiver: &Place, near: bool, factors: &mut u64) -> f64 {
+    fn exchange_area(
+        &self,
+        source: &PlacedElement,
+        receiver: &PlacedElement,
+        near: bool,
+        factors: &mut u64,
+    ) -> f64 {
         let (small, large) =
             if source.size < receiver.size { (source, receiver) } else { (receiver, source) };
         let see = |point: &DVec3| {
@@ -160,12 +166,12 @@ impl Linking<'_, '_> {
         factor * visible * self.mesh[small.element].area
     }
 
-    fn place(&self, element: ElementId) -> Place {
-        Place::new(self.mesh, element)
+    fn placed(&self, element: ElementId) -> PlacedElement {
+        PlacedElement::new(self.mesh, element)
     }
 }
 
-impl Place {
+impl PlacedElement {
     fn new(mesh: &Mesh, element: ElementId) -> Self {
         let plane = mesh.plane(mesh[element].patch);
         let outline = mesh.outline(element);
@@ -180,11 +186,11 @@ impl Place {
 }
 
 /// Points that stand for equal parts of an element: a 3 × 3 grid, or one for each corner.
-fn parts(place: &Place) -> SmallVec<[DVec3; 9]> {
+fn parts(placed: &PlacedElement) -> SmallVec<[DVec3; 9]> {
     const AT: [f64; 3] = [1.0 / 6.0, 0.5, 5.0 / 6.0];
-    if let &[a, b, c, d] = place.corners.as_slice() {
+    if let &[a, b, c, d] = placed.corners.as_slice() {
         let at = |s: f64, t: f64| a.lerp(b, s).lerp(d.lerp(c, s), t);
         return AT.iter().flat_map(|&s| AT.iter().map(move |&t| at(s, t))).collect();
     }
-    place.corners.iter().map(|corner| corner.lerp(place.centre, 0.5)).collect()
+    placed.corners.iter().map(|corner| corner.lerp(placed.centre, 0.5)).collect()
 }

@@ -146,7 +146,7 @@ impl RelaxationSystem for Shooting<'_, '_> {
         let row = self.rows.take(shooter);
         let Carried { scale, even, outside } = Carried::all(power, &row, &self.released);
         for link in &row.links {
-            let power = (scale * self.released[link.source.index()] + even) * link.exchange;
+            let power = (scale * self.released[link.source.index()] + even) * link.exchange_area;
             let cluster = self.context.clusters.of(self.mesh[link.receiver].patch);
             let shared = self.context.clusters.members(cluster).len() > 1;
             let area = if shared { self.areas[cluster] } else { self.mesh[link.receiver].area };
