@@ -29,9 +29,16 @@ const FEW_SIDES: f64 = 4.0;
 
 /// Light straight from emitters is held to this share of the tolerance: it has the edges that eyes look
 /// for, and costs little to evaluate.
+///
+/// At 1/6, the Cornell box (medium) takes 20 751 triangles for 14 024, and errs no less (0.57 % of the mean radiosity);
+/// at 2/3, the shadows of a room behind a door err by 1.21 % for 0.78 %, and those of the blocker scene by 0.28 % for
+/// 0.18 %.
 const DIRECT_SHARE: f64 = 1.0 / 3.0;
 
 /// Light from other surfaces is held to this share: it is smooth, and costs much.
+///
+/// At 0.75, two rooms joined by a door (medium) take 11 230 triangles for 8 498 and 1.7 times the time, for 0.71 % error
+/// instead of 0.72 %; at 3, shadows there err by 1.24 % for 0.78 %, and those of the Cornell box by 0.71 % for 0.55 %.
 const REFLECTED_SHARE: f64 = 1.5;
 
 /// Light is judged as if at least this share of the mean were there: errors in the dark count for little.

@@ -37,6 +37,9 @@ const MOST_CELLS: usize = 32;
 const DEEPEST: u32 = 6;
 
 /// Gathering resolves differences down to this share of the tolerated error.
+///
+/// At half of it, two rooms joined by a door (medium) err by 0.58 % for 0.72 % and take 1.2 times the time; at twice, by
+/// 0.93 %, in 0.9 times the time.
 const GATHER_SHARE: f64 = 0.13;
 
 /// Patches that fill less than this of a vertex's view may change without its light being gathered anew.
