@@ -17,12 +17,19 @@ use crate::mesh::{Crossing, Mesh, Patch, PatchId, Split};
 const STEP: f64 = 1.0 / 64.0;
 
 /// Both parts of an element keep at least this share of it.
+///
+/// At 0.03 and at 0.12, shadows in two rooms (medium) err by 0.94 % and 0.86 % for 0.78 %.
 const LEAST_PART: f64 = 0.06;
 
 /// A line must run through this share of the cut.
+///
+/// At 0.3, the Cornell box (medium) errs along shadows by 0.55 % as before; at 0.9 it takes
+/// 14 362 triangles for 14 024.
 const LEAST_SHARE: f64 = 0.6;
 
 /// Ends of a cut nearer to a corner than this share of an edge are moved there.
+///
+/// At 0.05, the blocker scene (medium) takes 3 892 triangles for 3 729; at 0.3, two rooms take 8 904 for 8 498.
 const SNAP: f64 = 0.15;
 
 /// Numbers of equal parts of an edge between which neighbours, dividing it again and again, may have
@@ -36,6 +43,8 @@ const NOTCHES: f64 = 256.0;
 const MOST_LINES: usize = 128;
 
 /// Sine of the least angle between a cut and an edge: 15°.
+///
+/// At 0.13 and at 0.52, shadows in two rooms (medium) err by 1.10 % and 1.03 % for 0.78 %.
 const LEAST_SINE: f64 = 0.26;
 
 /// A discontinuity line on a patch, and what it carries.

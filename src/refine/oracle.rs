@@ -8,13 +8,21 @@ use crate::mesh::{Element, ElementId, Mesh, Middle, Patch, Reason, Split, Vertex
 use crate::settings::Settings;
 
 /// A halved quadrilateral may become this much longer than wide; its triangles then keep 11° and more.
+///
+/// At 2.5, two rooms (medium) take 8 630 triangles for 8 498; at 10, shadows there err by 0.96 % for 0.78 %.
 const SLENDER: f64 = 5.0;
 
 /// Halving must leave at most this share of the error that is allowed.
+///
+/// At 0.4, two rooms (medium) take 8 890 triangles for 8 498 and err no less; at 0.95, the floor of the blocker scene
+/// errs by 0.155 % for 0.144 %.
 const RESIDUE: f64 = 0.7;
 
 /// Elements of this share of the scene's extent are held to the tolerance as it is;
 /// larger ones more strictly and smaller ones less, since an error counts by the area that it spoils.
+///
+/// At 0.01, two rooms joined by a door (medium) take 14 672 triangles for 8 498, and err no less; at 0.04, shadows
+/// there err by 1.19 % for 0.78 %, and those of the Cornell box by 0.71 % for 0.55 %.
 const PLAIN_SIZE: f64 = 0.02;
 
 /// The least and the most that size counts for. In between, allowed errors are as one over the size of
@@ -42,6 +50,8 @@ const DIRECT_SHARE: f64 = 1.0 / 3.0;
 const REFLECTED_SHARE: f64 = 1.5;
 
 /// Light is judged as if at least this share of the mean were there: errors in the dark count for little.
+///
+/// At 0.025, two rooms (medium) take 8 826 triangles for 8 498; at 0.1, shadows there err by 0.97 % for 0.78 %.
 const DARKEST: f64 = 0.05;
 
 /// Judges elements by one kind of light.

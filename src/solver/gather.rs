@@ -31,9 +31,14 @@ use crate::visibility::{Occluders, SurfacePoint};
 
 /// Most cells along the edge of the hemicubes over vertices: they measure visibility only, and vertices
 /// are many.
+///
+/// At 16, shadows in two rooms (medium) err by 1.45 % for 0.78 %, and noise makes 9 860 triangles of 8 498; at 64 they
+/// err no less.
 const MOST_CELLS: usize = 32;
 
 /// Deepest division of a leaf seen from close by.
+///
+/// At 3, two rooms (medium) err by 0.723 % for 0.717 %; at 12 nothing changes.
 const DEEPEST: u32 = 6;
 
 /// Gathering resolves differences down to this share of the tolerated error.
@@ -43,9 +48,13 @@ const DEEPEST: u32 = 6;
 const GATHER_SHARE: f64 = 0.13;
 
 /// Patches that fill less than this of a vertex's view may change without its light being gathered anew.
+///
+/// At 0.01, two rooms (medium) err by 0.68 % for 0.72 %, in 1.1 times the time; at 0.04, by 0.73 %.
 const WIDE: f64 = 0.02;
 
 /// Changes of this many times the finest difference that gathering resolves make a vertex's light stale.
+///
+/// At 4, two rooms (medium) err by 0.66 % for 0.72 %, in 1.1 times the time; at 16, by 0.88 %.
 const STALE: f64 = 8.0;
 
 /// The patches that fill much of a vertex's view, and their form factors.

@@ -23,7 +23,10 @@ use crate::refine::Oracle;
 use crate::settings::Settings;
 
 /// How often light is gathered: from what the exchange left on the elements, then from what the first
-/// gathering found at their vertices. A third changed no result.
+/// gathering found at their vertices.
+///
+/// Once, the Cornell box (medium) errs by 0.72 % for 0.57 %, and two rooms by 0.96 % for 0.72 %; three times, two rooms
+/// by 0.67 % in 1.1 times the time, and the Cornell box no less.
 const ROUNDS: usize = 2;
 
 /// Reflected light, exchanged between the patches of a mesh as it is.
