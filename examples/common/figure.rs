@@ -3,11 +3,10 @@
 use std::path::Path;
 
 use image::{Rgb, RgbImage};
-use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
+use radiosity::render::{Letters, fill};
 
-/// sRGB-coded colour behind everything, and that of words.
+/// sRGB-coded colour behind everything.
 pub(crate) const GROUND: [u8; 3] = [18, 18, 20];
-const INK: [u8; 3] = [235, 235, 235];
 
 /// Height of a line of words, pixels.
 pub(crate) const LINE: usize = 24;
@@ -25,26 +24,13 @@ impl Figure {
     }
 
     pub(crate) fn square(&mut self, [left, top]: [usize; 2], size: usize, colour: [u8; 3]) {
-        for y in top..top + size {
-            for x in left..left + size {
-                self.dot([x, y], colour);
-            }
-        }
+        fill(&mut self.0, [left, top, size, size].map(|pixels| pixels as u32), colour);
     }
 
     /// Writes a line; what would be outside of the picture is left out.
-    pub(crate) fn write(&mut self, [left, top]: [usize; 2], text: &str) {
-        let (weight, size) = (FontWeight::Regular, RasterHeight::Size16);
-        let glyphs = text.chars().map(|c| get_raster(c, weight, size));
-        for (glyph, start) in glyphs.zip((left..).step_by(get_raster_width(weight, size))) {
-            let Some(glyph) = glyph else { continue };
-            for (row, y) in glyph.rows().zip(top as u32..) {
-                for (&strength, x) in row.iter().zip(start as u32..) {
-                    let Some(pixel) = self.0.get_pixel_mut_checked(x, y) else { continue };
-                    pixel.0 = mixed(pixel.0, INK, f64::from(strength) / 255.0);
-                }
-            }
-        }
+    pub(crate) fn write(&mut self, at: [usize; 2], text: &str) {
+        let letters = Letters::for_picture(self.0.width(), self.0.height());
+        letters.write(&mut self.0, text, at.map(|pixels| pixels as u32));
     }
 
     /// A line of words after a square of the colour that they explain.

@@ -130,7 +130,7 @@ impl Compare {
                 interrupt.worth_writing();
             }
             meter.advance(&progress.phase, progress.done);
-            interrupt.flow().map_break(drop)
+            interrupt.go_on()
         });
         let comparison = comparison.map_err(|error| interrupt.blamed(error))?;
         comparison.surfaces.notes.iter().for_each(|note| meter.tell(&format!("note: {note}")));

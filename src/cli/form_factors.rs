@@ -123,7 +123,7 @@ impl FormFactorsCommand {
         let assembled = assemble(&mesh.patches, &occluders, method, |done| {
             interrupt.worth_writing();
             meter.advance("form factors", done);
-            interrupt.flow().map_break(drop)
+            interrupt.go_on()
         });
         let at = self.at.map(|(position, normal)| {
             factors_at(&mesh.patches, &occluders, method, SurfacePoint::new(position, normal))

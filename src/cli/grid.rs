@@ -75,7 +75,7 @@ impl PlannedGrid {
         meter.begin("grid");
         let readings = read(surfaces, settings, solution, &self.places, |done| {
             meter.advance("grid", done);
-            interrupt.flow().map_break(drop)
+            interrupt.go_on()
         });
         if let Some(path) = &self.csv {
             save_grid(&readings, path)?;

@@ -112,6 +112,11 @@ impl Interrupt {
     }
 
     /// Whether to go on; who asks will leave something that can be written.
+    pub(crate) fn go_on(&self) -> ControlFlow<()> {
+        self.flow().map_break(drop)
+    }
+
+    /// The same, with the reason not to.
     pub(crate) fn flow(&self) -> ControlFlow<Cancellation> {
         let Some(reason) = self.reason() else { return ControlFlow::Continue(()) };
         self.cut.store(true, Ordering::Relaxed);

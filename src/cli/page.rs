@@ -94,7 +94,7 @@ impl PageOptions {
         let drawing = options.drawing(View::Light, lights);
         let mut picture = render_solved(subject, account.camera, &drawing, |done| {
             meter.advance("page", done);
-            interrupt.flow().map_break(drop)
+            interrupt.go_on()
         });
         picture.unfinished |= !interrupt.is_whole();
         let still = png(&picture, &account.display);

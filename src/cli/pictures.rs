@@ -63,7 +63,7 @@ impl<'a> Pictures<'a> {
             let drawing = options.drawing(view, self.sky);
             let mut picture = render_solved(self.subject, self.camera, &drawing, |done| {
                 meter.advance("picture", done);
-                interrupt.flow().map_break(drop)
+                interrupt.go_on()
             });
             picture.unfinished |= !self.finished || !interrupt.is_whole();
             for file in files {

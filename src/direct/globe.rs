@@ -205,9 +205,9 @@ impl Globe {
 }
 
 /// A hair before a surface, so that rounding lets no place on it be lit by what it lies on.
-pub(super) fn front(surface: &Surface, tolerance: f64) -> HalfSpace {
+pub(super) fn front(surface: &Surface, epsilon: f64) -> HalfSpace {
     let normal = surface.plane.normal;
-    HalfSpace::new(surface.plane.origin + normal * tolerance, normal)
+    HalfSpace::new(surface.plane.origin + normal * epsilon, normal)
 }
 
 /// The convex hull of points in a plane, counter-clockwise ([Andrew 1979]).

@@ -126,9 +126,24 @@ impl Mesh {
         self.is_full
     }
 
+    /// What names the patches, in their order.
+    pub fn patch_ids(&self) -> impl ExactSizeIterator<Item = PatchId> + Clone + use<> {
+        (0..self.patches.len() as u32).map(PatchId)
+    }
+
+    /// What names the elements, parents before their children.
+    pub fn element_ids(&self) -> impl ExactSizeIterator<Item = ElementId> + Clone + use<> {
+        (0..self.elements.len() as u32).map(ElementId)
+    }
+
+    /// What names the vertices, in the order in which they were made.
+    pub fn vertex_ids(&self) -> impl ExactSizeIterator<Item = VertexId> + Clone + use<> {
+        (0..self.vertices.len() as u32).map(VertexId)
+    }
+
     /// The elements that have not been divided, in the order in which they were made.
     pub fn leaves(&self) -> impl Iterator<Item = ElementId> + '_ {
-        (0..self.elements.len() as u32).map(ElementId).filter(|&e| self[e].is_leaf())
+        self.element_ids().filter(|&e| self[e].is_leaf())
     }
 
     /// The elements of each patch, parents before their children.

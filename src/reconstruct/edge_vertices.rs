@@ -16,14 +16,13 @@ pub(crate) struct Places {
     points: Vec<DVec3>,
     cells: HashMap<[i32; 3], Vec<u32>>,
     cell_size: f64,
-    tolerance: f64,
+    epsilon: f64,
 }
 
 impl Places {
-    pub(crate) fn new(weld: &Weld, extent: f64, tolerance: f64) -> Self {
+    pub(crate) fn new(weld: &Weld, extent: f64, epsilon: f64) -> Self {
         let points = weld.places().to_vec();
-        let mut places =
-            Self { points, cells: HashMap::new(), cell_size: extent / CELLS, tolerance };
+        let mut places = Self { points, cells: HashMap::new(), cell_size: extent / CELLS, epsilon };
         for (number, &point) in places.points.iter().enumerate() {
             let cell = cell(point / places.cell_size);
             places.cells.entry(cell).or_default().push(number as u32);
@@ -55,7 +54,7 @@ impl Places {
                 let position = offset.dot(along);
                 ((offset - along * position).length(), position, place)
             })
-            .filter(|&(aside, ..)| aside <= self.tolerance)
+            .filter(|&(aside, ..)| aside <= self.epsilon)
             .collect();
         measured.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.2.cmp(&y.2)));
         // What is more aside of the edge than along it, seen from one that is on it, would fold the edge.
@@ -72,7 +71,7 @@ impl Places {
 
     /// The places in the cells that an edge passes.
     fn beside(&self, from: DVec3, to: DVec3) -> Vec<u32> {
-        let margin = DVec3::splat(self.tolerance);
+        let margin = DVec3::splat(self.epsilon);
         let low = cell((from.min(to) - margin) / self.cell_size);
         let high = cell((from.max(to) + margin) / self.cell_size);
         self.within(low, high).collect()

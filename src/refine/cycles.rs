@@ -24,7 +24,7 @@ pub trait Refinement {
     fn mark(&mut self, elements: &[ElementId], middles: &[Middle]) -> Vec<Option<Split>>;
 
     /// Learns which elements have parts now that will be looked at next.
-    fn divided(&mut self, elements: &[ElementId]);
+    fn divided(&mut self, _elements: &[ElementId]) {}
 }
 
 /// Divides elements until interpolation does the light justice, at most so many `levels` deep, unless there has been

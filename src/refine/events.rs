@@ -21,7 +21,7 @@ pub(super) struct Event {
 }
 
 /// Events with those that overlap on one line joined, on a patch of this size, m.
-pub(super) fn joined(events: impl Iterator<Item = Event>, size: f64, tolerance: f64) -> Vec<Event> {
+pub(super) fn joined(events: impl Iterator<Item = Event>, size: f64, epsilon: f64) -> Vec<Event> {
     let mut all: Vec<Option<Event>> = Vec::new();
     let mut bins: HashMap<[i64; 2], SmallVec<[u32; 4]>> = HashMap::new();
     for mut new in events {
@@ -30,7 +30,7 @@ pub(super) fn joined(events: impl Iterator<Item = Event>, size: f64, tolerance: 
             let Some(indices) = bins.get_mut(&key) else { continue };
             indices.retain(|&mut index| {
                 let old = &mut all[index as usize];
-                let union = old.as_ref().and_then(|old| union(new.segment, old.segment, tolerance));
+                let union = old.as_ref().and_then(|old| union(new.segment, old.segment, epsilon));
                 if let Some((union, old)) = union.zip(old.take_if(|_| union.is_some())) {
                     new.segment = union;
                     new.bound = new.bound.max(old.bound);
@@ -71,15 +71,15 @@ fn around([angle, offset]: [i64; 2]) -> impl Iterator<Item = [i64; 2]> {
 }
 
 /// Two segments as one, if they overlap on one line.
-fn union(a: Segment, b: Segment, tolerance: f64) -> Option<Segment> {
+fn union(a: Segment, b: Segment, epsilon: f64) -> Option<Segment> {
     let line = polygon::Line::through(a);
-    if b.iter().any(|&p| line.side(p, tolerance) != 0.0) {
+    if b.iter().any(|&p| line.side(p, epsilon) != 0.0) {
         return None;
     }
     let along = (a[1] - a[0]).normalize_or_zero();
     let [from, to] = b.map(|p| (p - a[0]).dot(along));
     let ([low, high], length) = ([from.min(to), from.max(to)], a[0].distance(a[1]));
-    let overlap = low <= length + tolerance && high >= -tolerance;
+    let overlap = low <= length + epsilon && high >= -epsilon;
     overlap.then(|| [a[0] + along * low.min(0.0), a[0] + along * high.max(length)])
 }
 

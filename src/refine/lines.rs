@@ -88,18 +88,18 @@ impl LineSearch<'_> {
         if reflectance.max_element() <= 0.0 {
             return Vec::new();
         }
-        let (plane, tolerance) = (mesh.plane(patch), mesh.epsilon());
+        let (plane, epsilon) = (mesh.plane(patch), mesh.epsilon());
         let outline: Convex = corners.iter().map(|&p| plane.flatten(p)).collect();
         let borders = polygon::borders(&outline);
         let allowed = oracle.allowed_in_the_dark(mesh, *root);
         let lines = light.lines(mesh, patch, allowed / strength(reflectance));
         let inside = lines.into_iter().filter_map(|EventLine { ends, emitter, bound }| {
             let segment = ends.map(|p| plane.flatten(p));
-            let segment = polygon::clip(segment, &borders, tolerance)?;
+            let segment = polygon::clip(segment, &borders, epsilon)?;
             let is_long = segment[0].distance(segment[1]) >= 2.0 * oracle.min_element();
             is_long.then(|| Event { segment, emitters: smallvec![emitter], bound })
         });
-        let mut events = joined(inside, area.sqrt(), tolerance);
+        let mut events = joined(inside, area.sqrt(), epsilon);
         strongest(&mut events);
         let step = STEP * area.sqrt();
         let weighed = |event: Event| {
@@ -156,16 +156,11 @@ fn weigh(
 }
 
 /// The cut of an element with this outline along the line that carries most, if that is more than is `allowed`, W/m².
-pub fn cut(
-    outline: &Convex,
-    lines: &[Discontinuity],
-    allowed: f64,
-    tolerance: f64,
-) -> Option<Split> {
+pub fn cut(outline: &Convex, lines: &[Discontinuity], allowed: f64, epsilon: f64) -> Option<Split> {
     let (borders, area) = (polygon::borders(outline), polygon::area(outline));
     let carried = |line: &Discontinuity| {
-        let [from, to] = polygon::clip(line.segment, &borders, tolerance)?;
-        let chord = Chord::new(outline, &polygon::Line::through(line.segment), tolerance)?;
+        let [from, to] = polygon::clip(line.segment, &borders, epsilon)?;
+        let chord = Chord::new(outline, &polygon::Line::through(line.segment), epsilon)?;
         let share = from.distance(to) / chord.length;
         if share < LEAST_SHARE || chord.least_part < LEAST_PART {
             return None;
@@ -185,11 +180,11 @@ impl Discontinuity {
 
 impl Chord {
     /// Along a line, its ends moved to corners that are near; none where its parts would be slivers.
-    fn new(outline: &Convex, line: &polygon::Line, tolerance: f64) -> Option<Self> {
+    fn new(outline: &Convex, line: &polygon::Line, epsilon: f64) -> Option<Self> {
         let n = outline.len();
         let mut crossings: SmallVec<[Crossing; 4]> = SmallVec::new();
         for edge in 0..n {
-            let [from, to] = [edge, (edge + 1) % n].map(|k| line.side(outline[k], tolerance));
+            let [from, to] = [edge, (edge + 1) % n].map(|k| line.side(outline[k], epsilon));
             let share = if from == 0.0 {
                 0.0
             } else if from * to < 0.0 {
@@ -208,7 +203,7 @@ impl Chord {
         if [from, to].iter().any(|&end| sine(outline, end, along) < LEAST_SINE) {
             return None;
         }
-        let parts = polygon::Line::through([at(from), at(to)]).split(outline, tolerance);
+        let parts = polygon::Line::through([at(from), at(to)]).split(outline, epsilon);
         let [a, b] = parts.map(|part| part.map_or(0.0, |part| polygon::area(&part)));
         Some(Self { ends: [from, to], length: along.length(), least_part: a.min(b) / (a + b) })
     }

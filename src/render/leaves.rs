@@ -67,23 +67,22 @@ pub(super) fn errors(solved: &Solved<'_>) -> Vec<Rgb> {
     let Solution { mesh, optics, vertex_light: light, .. } = solved.solution;
     let Solved { surfaces, settings, .. } = solved;
     let of_direct_light = Oracle::of_direct_light(settings, surfaces.extent, mesh, optics, light);
-    let of_reflected_light = Oracle::of_reflected_light(
-        settings,
-        surfaces.extent,
-        mean_radiosity_shown(mesh, optics, light),
-    );
+    let mean = mean_radiosity_shown(solved.solution);
+    let of_reflected_light = Oracle::of_reflected_light(settings, surfaces.extent, mean);
     let error = |leaf: ElementId| {
         let middle = mesh.find_middle(leaf)?;
-        let reflectance = optics.of(&mesh[leaf]);
         let excess = |oracle: &Oracle, shown: &dyn Fn(VertexId) -> Rgb| {
             oracle.excess(&Sample::new(mesh, leaf, shown), &middle, shown)
         };
-        let of_direct = excess(&of_direct_light, &|v| reflectance * light.direct_irradiance(v));
+        let of_direct = excess(
+            &of_direct_light,
+            &optics.reflected(&mesh[leaf], |v| light.direct_irradiance(v)),
+        );
         let mut places = middle.edges.iter().chain([&middle.centre]);
         if places.any(|&v| light.indirect(v).is_none()) {
             return Some(of_direct);
         }
-        let indirect = |v| reflectance * light.indirect(v).unwrap_or(Rgb::ZERO);
+        let indirect = optics.reflected(&mesh[leaf], |v| light.indirect(v).unwrap_or(Rgb::ZERO));
         Some(of_direct.max(excess(&of_reflected_light, &indirect)))
     };
     let mut errors = vec![Rgb::ZERO; mesh.elements.len()];

@@ -14,17 +14,17 @@ const GROUND: [u8; 3] = [20, 20, 20];
 
 /// Letters of one width and height.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Letters {
+pub struct Letters {
     size: RasterHeight,
     /// Pixels from one letter to the next.
-    pub(super) width: u32,
+    pub width: u32,
     /// Pixels of a line.
-    pub(super) height: u32,
+    pub height: u32,
 }
 
 impl Letters {
     /// Letters that suit a picture of this size, pixels.
-    pub(super) fn for_picture(width: u32, height: u32) -> Self {
+    pub fn for_picture(width: u32, height: u32) -> Self {
         let large = width.min(height) >= LARGE_PICTURE;
         let size = if large { RasterHeight::Size24 } else { RasterHeight::Size16 };
         let width = get_raster_width(FontWeight::Regular, size) as u32;
@@ -32,12 +32,12 @@ impl Letters {
     }
 
     /// Pixels that a text is wide.
-    pub(super) fn length(&self, text: &str) -> u32 {
+    pub fn length(&self, text: &str) -> u32 {
         text.chars().count() as u32 * self.width
     }
 
     /// Writes a line; what would be outside of the image is left out.
-    pub(super) fn write(&self, image: &mut RgbImage, text: &str, [left, top]: [u32; 2]) {
+    pub fn write(&self, image: &mut RgbImage, text: &str, [left, top]: [u32; 2]) {
         let glyphs = text.chars().filter_map(|c| get_raster(c, FontWeight::Regular, self.size));
         for (glyph, position) in glyphs.zip(0..) {
             for (row, y) in glyph.rows().zip(top..) {
@@ -68,7 +68,7 @@ fn blend_ink(image: &mut RgbImage, x: u32, y: u32, intensity: u8) {
 }
 
 /// Fills a rectangle: left, top, width and height in pixels.
-pub(super) fn fill(image: &mut RgbImage, [left, top, width, height]: [u32; 4], colour: [u8; 3]) {
+pub fn fill(image: &mut RgbImage, [left, top, width, height]: [u32; 4], colour: [u8; 3]) {
     for y in top..(top + height).min(image.height()) {
         for x in left..(left + width).min(image.width()) {
             image.put_pixel(x, y, Pixel(colour));

@@ -35,6 +35,7 @@ pub use automatic_camera::automatic_camera;
 pub use display::{Display, displayed};
 pub use draw::{render, render_solved};
 pub use exposure::exposure_seen;
+pub use letters::{Letters, fill};
 pub use options::RenderOptions;
 pub use picture::Picture;
 pub use rays::close_up;

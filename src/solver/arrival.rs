@@ -41,7 +41,7 @@ pub(super) fn arrival(
     light: &ElementLight,
     error: f64,
 ) -> (Vec<Rgb>, WorkCounters) {
-    let numbers: Vec<PatchId> = (0..mesh.patches.len() as u32).map(PatchId).collect();
+    let numbers: Vec<PatchId> = mesh.patch_ids().collect();
     let on = |&patch: &PatchId| {
         let whole = &mesh[patch];
         let known = light.direct[whole.root.index()] * whole.area;

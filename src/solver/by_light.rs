@@ -25,7 +25,7 @@ use crate::colour::Rgb;
 use crate::direct::DirectLight;
 use crate::error::{Error, Result};
 use crate::light::{Direct, ElementLight, Optics};
-use crate::mesh::{Mesh, VertexId};
+use crate::mesh::Mesh;
 use crate::settings::Settings;
 use crate::surface::Surfaces;
 
@@ -50,7 +50,7 @@ struct Alone<'a> {
 /// at these strengths.
 ///
 /// `scenes` has each light alone and its strength. What is told of each and of the sum, is of the
-/// way to them; elements of [`Solution::light`] are those that the first light had.
+/// way to them.
 ///
 /// # Errors
 /// As [`solve`](super::solve).
@@ -134,7 +134,7 @@ fn sum(solutions: &[Solution], strengths: &[Rgb]) -> Solution {
         |light: &dyn Fn(&Solution) -> Rgb| each().map(|(s, &strength)| strength * light(s)).sum();
     let patches = 0..sum.mesh.patches.len();
     sum.optics.exitance = patches.map(|patch| total(&|s| s.optics.exitance[patch])).collect();
-    for vertex in (0..sum.mesh.vertices.len() as u32).map(VertexId) {
+    for vertex in sum.mesh.vertex_ids() {
         let direct = |s: &Solution| s.vertex_light.direct(vertex).unwrap_or_default();
         let direct = Direct {
             irradiance: total(&|s| direct(s).irradiance),

@@ -129,8 +129,8 @@ struct FacetCorners {
 }
 
 impl FacetCorners {
-    fn new(mesh: &Mesh, is_facet: impl Fn(&Patch) -> bool, tolerance: f64) -> Self {
-        let mut weld = Weld::new(tolerance);
+    fn new(mesh: &Mesh, is_facet: impl Fn(&Patch) -> bool, epsilon: f64) -> Self {
+        let mut weld = Weld::new(epsilon);
         let mut corners = Self { places: Vec::new(), facets: Vec::new() };
         for (index, patch) in mesh.patches.iter().enumerate() {
             let outline = patch.corners.iter().filter(|_| is_facet(patch));

@@ -59,7 +59,7 @@ fn owners(
     light: &VertexLight,
     elements: &[ElementId],
 ) -> (Owned, Vec<VertexId>) {
-    let vertices = || (0..mesh.vertices.len() as u32).map(VertexId);
+    let vertices = || mesh.vertex_ids();
     let mut is_dark: Vec<bool> = vertices().map(|v| light.direct(v).is_none()).collect();
     let mut owned = Vec::new();
     for &element in elements.iter().filter(|&&e| !context.clusters.holds(mesh[e].patch)) {

@@ -127,7 +127,7 @@ impl<'a> Gatherer<'a> {
         let elements = glaring(mesh, &self.sources, self.mean);
         let glares =
             |patch: PatchId| !self.clusters.holds(patch) && elements[mesh[patch].root.index()];
-        let patches = (0..mesh.patches.len() as u32).map(PatchId);
+        let patches = mesh.patch_ids();
         self.glares = patches.clone().map(glares).collect();
         self.glaring = patches.filter(|patch| self.glares[patch.index()]).collect();
     }
@@ -175,7 +175,7 @@ impl<'a> Gatherer<'a> {
     ) {
         let before = std::mem::replace(&mut self.sources, sources);
         self.find_glaring(mesh);
-        let patches = (0..mesh.patches.len() as u32).map(PatchId);
+        let patches = mesh.patch_ids();
         let change: Vec<f64> = patches.map(|p| self.sources.change(mesh, &before, p)).collect();
         let is_stale = |view: &PatchView| {
             let seen: f64 = view.iter().map(|(patch, factor)| change[patch.index()] * factor).sum();

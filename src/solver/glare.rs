@@ -25,7 +25,7 @@ const DEEPEST: u32 = 6;
 
 /// By element, whether its radiosity varies so much, in a scene with a mean radiosity of `mean`, W/m².
 pub(super) fn glaring(mesh: &Mesh, sources: &Sources<'_>, mean: f64) -> Vec<bool> {
-    let elements = (0..mesh.elements.len() as u32).map(ElementId);
+    let elements = mesh.element_ids();
     elements.map(|element| sources.spread(element) > GLARING * mean).collect()
 }
 

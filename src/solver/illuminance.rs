@@ -58,10 +58,10 @@ pub fn read(
     points: &[SurfacePoint],
     observe: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Vec<Reading> {
-    let Solution { mesh, optics, vertex_light, .. } = solution;
+    let Solution { mesh, vertex_light, .. } = solution;
     let occluders = Occluders::new(surfaces);
     let emitters = Emitters::new(surfaces, mesh).seen_by(settings.shadow_rays);
-    let sources = Sources::of_vertices(mesh, optics, vertex_light);
+    let sources = Sources::of_solution(solution);
     let mean = sources.mean_radiosity_shown(mesh, vertex_light);
     let clusters = Clusters::new(surfaces, settings, mesh);
     let surroundings = GatherContext { surfaces, occluders: &occluders, clusters: &clusters };

@@ -89,8 +89,6 @@ impl Refinement for ReflectedRefinement<'_, '_, '_, '_> {
         };
         elements.iter().zip(middles).map(split).collect()
     }
-
-    fn divided(&mut self, _: &[ElementId]) {}
 }
 
 /// Corners of elements.

@@ -3,9 +3,10 @@
 use glam::{DMat3, DVec3};
 use smallvec::SmallVec;
 
+use super::solution::Solution;
 use crate::colour::{Rgb, strength};
 use crate::light::{ElementLight, Optics, VertexLight};
-use crate::mesh::{ElementId, Mesh, PatchId, VertexId};
+use crate::mesh::{ElementId, Mesh, PatchId};
 use crate::refine::mean_radiosity;
 
 /// Radiosity beyond this many times the mean of the scene counts as that much in it.
@@ -28,9 +29,10 @@ pub(super) fn capped_power(
     leaves.map(|leaf| strength(light(leaf)).min(most) * mesh[leaf].area).sum()
 }
 
-/// Mean radiosity of a scene whose vertices are lit, W/m², by which errors are measured.
-pub(crate) fn mean_radiosity_shown(mesh: &Mesh, optics: &Optics, light: &VertexLight) -> f64 {
-    Sources::of_vertices(mesh, optics, light).mean_radiosity_shown(mesh, light)
+/// Mean radiosity of a scene, W/m², by which errors are measured.
+pub(crate) fn mean_radiosity_shown(solution: &Solution) -> f64 {
+    let Solution { mesh, vertex_light, .. } = solution;
+    Sources::of_solution(solution).mean_radiosity_shown(mesh, vertex_light)
 }
 
 /// Reflected radiosities, W/m², emission not included.
@@ -80,15 +82,21 @@ impl<'a> Sources<'a> {
         vertices: &VertexLight,
         light: &ElementLight,
     ) -> Self {
-        let direct = |v: u32| vertices.direct_irradiance(VertexId(v));
-        Self::new(mesh, optics, light, (0..mesh.vertices.len() as u32).map(direct).collect())
+        let direct = |v| vertices.direct_irradiance(v);
+        Self::new(mesh, optics, light, mesh.vertex_ids().map(direct).collect())
     }
 
     /// From the light of all vertices.
     pub(super) fn of_vertices(mesh: &Mesh, optics: &'a Optics, light: &VertexLight) -> Self {
-        let numbers = 0..mesh.vertices.len() as u32;
-        let irradiance = numbers.map(|v| light.irradiance(VertexId(v))).collect();
+        let irradiance = mesh.vertex_ids().map(|v| light.irradiance(v)).collect();
         Self::new(mesh, optics, &ElementLight::of_vertices(mesh, light), irradiance)
+    }
+
+    /// From the light of a solution.
+    pub(super) fn of_solution(solution: &'a Solution) -> Self {
+        let Solution { mesh, optics, vertex_light, light, .. } = solution;
+        let irradiance = mesh.vertex_ids().map(|v| vertex_light.irradiance(v)).collect();
+        Self::new(mesh, optics, light, irradiance)
     }
 
     fn deviation(&self, mesh: &Mesh, id: ElementId) -> f64 {

@@ -7,7 +7,7 @@ use super::interpolate::{DIRECT, interpolate};
 use crate::colour::Rgb;
 use crate::direct::DirectLight;
 use crate::light::{Direct, VertexLight};
-use crate::mesh::{Mesh, PatchId, VertexId};
+use crate::mesh::{Mesh, VertexId};
 use crate::visibility::SurfacePoint;
 use crate::watch::{in_batches, within};
 
@@ -79,7 +79,7 @@ fn borrow(mesh: &Mesh, light: &mut VertexLight) {
             all.add(direct);
         }
     }
-    for patch in (0..mesh.patches.len() as u32).map(PatchId) {
+    for patch in mesh.patch_ids() {
         let corners = &mesh[mesh[patch].root].corners;
         let mut own = Mean::default();
         corners.iter().filter_map(|&v| light.direct(v)).for_each(|direct| own.add(direct));

@@ -45,13 +45,12 @@ struct TouchingPatch {
 
 impl Contacts {
     pub(super) fn find(patches: &[Patch], occluders: &Occluders) -> Self {
-        let tolerance = occluders.epsilon();
-        let boxes = boxes(patches, tolerance);
+        let epsilon = occluders.epsilon();
+        let boxes = boxes(patches, epsilon);
         let tree = hierarchy(&boxes);
         let touching = |i: usize| -> Vec<TouchingPatch> {
             let near = overlapping(&tree, boxes[i]);
-            let contact =
-                |j: u32| TouchingPatch::of(&patches[i], &patches[j as usize], j, tolerance);
+            let contact = |j: u32| TouchingPatch::of(&patches[i], &patches[j as usize], j, epsilon);
             near.into_iter().filter_map(contact).collect()
         };
         let mut all: Vec<Vec<TouchingPatch>> =
@@ -109,9 +108,9 @@ impl Contacts {
 }
 
 impl TouchingPatch {
-    fn of(patch: &Patch, other: &Patch, index: u32, tolerance: f64) -> Option<Self> {
+    fn of(patch: &Patch, other: &Patch, index: u32, epsilon: f64) -> Option<Self> {
         let height = (other.corners[0] - patch.corners[0]).dot(patch.normal).abs();
-        let faces = height <= tolerance && other.normal.dot(patch.normal) < -1.0 + 1e-9;
+        let faces = height <= epsilon && other.normal.dot(patch.normal) < -1.0 + 1e-9;
         if !faces || (patch.two_sided && other.two_sided) {
             return None;
         }
@@ -119,7 +118,7 @@ impl TouchingPatch {
         let clipped = |overlap: Polygon, side: HalfSpace| side.clip(&overlap);
         let overlap = sides.fold(Polygon::from_slice(&patch.corners), clipped);
         let contact = Self { other: index, normal: other.normal, overlap };
-        let least = tolerance * patch.area.min(other.area).sqrt();
+        let least = epsilon * patch.area.min(other.area).sqrt();
         (contact.overlap.len() > 2 && contact.area() > least).then_some(contact)
     }
 
@@ -138,14 +137,14 @@ impl TouchingPatch {
 }
 
 /// Boxes around patches, with all that may lie on them; in 32 bits, about the middle of all.
-fn boxes(patches: &[Patch], tolerance: f64) -> Vec<Aabb> {
+fn boxes(patches: &[Patch], epsilon: f64) -> Vec<Aabb> {
     /// Growth, as a share of all: more than rounding to 32 bits and than patches in one plane may
     /// turn away from each other.
     const GROWTH: f64 = 1e-4;
     let corners = || patches.iter().flat_map(|patch| patch.corners.iter().copied());
     let low = corners().fold(DVec3::INFINITY, DVec3::min);
     let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
-    let (centre, margin) = (low.midpoint(high), tolerance + GROWTH * low.distance(high));
+    let (centre, margin) = (low.midpoint(high), epsilon + GROWTH * low.distance(high));
     let around = |patch: &Patch| {
         let mut tight = Aabb::INVALID;
         patch.corners.iter().for_each(|&corner| {

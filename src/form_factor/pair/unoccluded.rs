@@ -49,15 +49,15 @@ pub fn by_contours(a: &[DVec3], b: &[DVec3]) -> f64 {
     (sum / (2.0 * PI)).abs()
 }
 
-/// True if two polygons lie in one plane, to within `tolerance`, m: then they exchange nothing, though
+/// True if two polygons lie in one plane, to within `epsilon`, m: then they exchange nothing, though
 /// in the limit of two that approach each other face to face they would.
 pub(in crate::form_factor) fn is_level(
     a: PlanarPolygon<'_>,
     b: PlanarPolygon<'_>,
-    tolerance: f64,
+    epsilon: f64,
 ) -> bool {
     let above = |plane: &HalfSpace, corners: &[DVec3]| {
-        corners.iter().any(|&corner| plane.depth(corner) > tolerance)
+        corners.iter().any(|&corner| plane.depth(corner) > epsilon)
     };
     !above(&a.plane, b.corners) || !above(&b.plane, a.corners)
 }
